@@ -1033,6 +1033,8 @@ export type CheckPage = {
       spots: number; // Spot lights [lights]
       grid_kind: string; // Of the grid
       cells: Cell; // Numbers of columns, rows and slices
+      first_row: "top" | "bottom"; // As grid.first_row of the dump, whose rows `row` counts; `cell` always counts from the top
+      first_slice: "near" | "far"; // As grid.first_slice, in the same way; `cell` always counts from the near end
       sets: Array<{
         name: string; // Of the set
         verdict: "unreadable" | "misread" | "lost" | "twice" | "empty" | "rounding" | "right"; // unreadable: no lists; misread: other_reading fits far better; lost: a light is missing where it shines, beyond rounding; twice: none is, and one is twice in a list; empty: no light reaches a cell, so nothing was checked; rounding: one is missing within rounding; right: nothing of all that
@@ -1055,6 +1057,7 @@ export type CheckPage = {
           }>; // The first of them, each at the later entry
           likely_reading: string | null; // Another description under which nothing is wrong; null: none was found
         }; // The buffers
+        remarks: string[]; // What may be wrong with the description, though no other reading is likelier: rows of buffers that are not read, cameras and ranges that make many more listed pairs true
         bytes: number; // Of all buffers that its lists are read from [bytes]
         longest_list: number; // Most lights in a cell [lights]
         longest_cell: [number, number, number] | null; // The first cell with so many; null: all are empty

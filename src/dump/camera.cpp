@@ -109,7 +109,7 @@ view::Projection projection_of_matrix(Mat4d m, const result::DumpCamera& camera,
   if (std::abs(at(3, 0)) + std::abs(at(3, 1)) > 1e-6 * std::abs(w) || (!out.orthographic && at(3, 3) != 0.0))
     refuse_projection("has the last row (" + short_number(at(3, 0)) + ", " + short_number(at(3, 1)) + ", " +
                       short_number(at(3, 2)) + ", " + short_number(at(3, 3)) +
-                      "); allowed: (0, 0, 1, 0), (0, 0, -1, 0) or (0, 0, 0, 1), perhaps with the other camera.order");
+                      "); allowed: (0, 0, 1, 0), (0, 0, -1, 0) or (0, 0, 0, 1)");
   if (!out.orthographic && w * forward < 0.0)
     refuse_projection(std::string("divides by ") + (forward < 0.0 ? "z" : "-z") +
                       ": it is of a camera that looks along " + (forward < 0.0 ? "+z" : "-z") + " (camera.forward)");
@@ -152,25 +152,35 @@ view::Projection projection_of_sides(const result::DumpCamera& camera) {
   return out;
 }
 
-// `camera`: whose near_m and far_m stand in place of the planes of its projection.
-void check_projection(const view::Projection& projection, const result::DumpCamera& camera) {
-  const char* pointer = camera.sides ? "/camera/sides" : "/camera/projection";
+// Which key leaves planes that are none. `own`: before near_m and far_m stood in their place.
+std::string place_of_planes(const view::Projection& own, const result::DumpCamera& camera) {
+  const bool own_near = own.orthographic ? std::isfinite(own.near_m) : own.near_m > 0.0 && std::isfinite(own.near_m);
+  if (!camera.sides && !camera.near_m && !own_near) return "/camera/projection";
+  if (camera.near_m && !own.orthographic && !(*camera.near_m > 0.0)) return "/camera/near_m";
+  if (camera.far_m) return "/camera/far_m";
+  return camera.near_m && (camera.sides || own.near_m < own.far_m) ? "/camera/near_m" : "/camera/projection";
+}
+
+// `own`: as above.
+void check_projection(const view::Projection& projection, const view::Projection& own,
+                      const result::DumpCamera& camera) {
   const double widest = std::max(
       {std::abs(projection.left), std::abs(projection.right), std::abs(projection.bottom), std::abs(projection.top)});
   if (!(widest <= (projection.orthographic ? geom::k_farthest_m : geom::k_steepest_slope)))
-    throw Error("", pointer, "shows more than 89.9994 degrees to one side, or more than 1e15 m");
+    throw Error("", camera.sides ? "/camera/sides" : "/camera/projection",
+                "shows more than 89.9994 degrees to one side, or more than 1e15 m");
   const bool has_near = projection.orthographic ? std::isfinite(projection.near_m) : projection.near_m > 0.0;
   if (has_near && projection.near_m < projection.far_m && (!projection.orthographic || std::isfinite(projection.far_m)))
     return;
-  if (camera.near_m || camera.far_m)
-    throw Error("", camera.far_m ? "/camera/far_m" : "/camera/near_m",
-                "leaves the near plane at " + short_number(projection.near_m) + " m and the far plane at " +
-                    short_number(projection.far_m) + " m; allowed: " +
-                    (projection.orthographic ? "near_m below far_m" : "near_m above 0 and below far_m"));
-  throw Error("", pointer,
-              "gives a near plane at " + short_number(projection.near_m) + " m and a far plane at " +
-                  short_number(projection.far_m) +
-                  " m: another camera.depth or camera.forward, or name near_m and far_m");
+  const std::string place = place_of_planes(own, camera);
+  const bool is_own = place == "/camera/projection";
+  const view::Projection& told = is_own ? own : projection;
+  const std::string near = short_number(told.near_m) + " m", far = short_number(told.far_m) + " m; allowed: ",
+                    allowed = projection.orthographic ? "near_m below far_m" : "near_m above 0 and below far_m";
+  if (is_own)
+    throw Error("", place,
+                "gives a near plane at " + near + " and a far plane at " + far + allowed + ", here or in their place");
+  throw Error("", place, "leaves the near plane at " + near + " and the far plane at " + far + allowed);
 }
 
 }  // namespace
@@ -179,7 +189,7 @@ bool has_matrices(const result::DumpCamera& camera) {
   return !camera.scene.has_value();
 }
 
-Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space) {
+Camera bare_camera_of(const result::DumpCamera& camera, bool lights_in_view_space) {
   const bool is_by_rows = camera.order.value_or("columns") == "rows";
   const double forward = camera.forward.value_or("-z") == "+z" ? 1.0 : -1.0;
   Camera out;
@@ -201,9 +211,10 @@ Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space) {
     throw Error("", "/camera/projection", "or sides: name one of the two");
   out.projection = camera.sides ? projection_of_sides(camera)
                                 : projection_of_matrix(matrix_of(*camera.projection, is_by_rows), camera, forward);
+  const view::Projection own = out.projection;
   if (camera.near_m) out.projection.near_m = *camera.near_m;
   if (camera.far_m) out.projection.far_m = camera.far_m->value_or(std::numeric_limits<double>::infinity());
-  check_projection(out.projection, camera);
+  check_projection(out.projection, own, camera);
   return out;
 }
 

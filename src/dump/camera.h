@@ -1,6 +1,9 @@
 #pragma once
 // The camera of a dump, from an engine's matrices with their conventions.
 
+#include <string>
+#include <vector>
+
 #include "result/documents/dump.h"
 #include "view/frame.h"
 
@@ -18,7 +21,24 @@ struct Camera {
 bool has_matrices(const result::DumpCamera& camera);
 
 // `lights_in_view_space`: then the world is view space, and no view matrix is needed. Throws Error ("", JSON pointer)
-// for a singular or scaled view matrix, a projection that is none, and for what is missing.
+// for a singular or scaled view matrix, a projection that is none, and for what is missing; where other words on the
+// same numbers give a camera, it names them.
 Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space);
+
+// --- Parts of it, for other words on the same numbers (camera_words.cpp) ---
+
+// The same, without looking for other words.
+Camera bare_camera_of(const result::DumpCamera& camera, bool lights_in_view_space);
+
+// The numbers of a camera under other words: order, depth, forward, clip_y, or with one matrix alone transposed.
+struct CameraWords {
+  result::DumpCamera camera;
+  std::vector<std::string> changes;  // "camera.order 'rows'"
+  bool is_transposed = false;        // a matrix is read the other way round
+};
+
+// All under which they are another camera, those with the fewest changes first. None gives a camera twice, or that of
+// the given words.
+std::vector<CameraWords> other_camera_words(const result::DumpCamera& camera, bool lights_in_view_space);
 
 }  // namespace clusterbench::dump

@@ -20,8 +20,18 @@ std::string number(std::uint64_t value) {
   return std::to_string(value);
 }
 
-std::string cell_text(const result::CellIndex& cell) {
-  return "(" + number(cell[0]) + ", " + number(cell[1]) + ", " + number(cell[2]) + ")";
+// From which ends cells are counted here, where the dump counts from others: ", row from the top".
+std::string counting_text(const result::CheckedDump& checked) {
+  const bool is_world = checked.grid_kind == "world";
+  std::string out;
+  if (checked.first_row == "bottom") out += is_world ? ", y as from first_row 'top'" : ", row from the top";
+  if (checked.first_slice == "far") out += is_world ? ", z from the lowest" : ", slice from the near end";
+  return out;
+}
+
+// `counting`: as above.
+std::string cell_text(const result::CellIndex& cell, const std::string& counting) {
+  return "(" + number(cell[0]) + ", " + number(cell[1]) + ", " + number(cell[2]) + ")" + counting;
 }
 
 // With this many significant digits, or all those before the point, and without an exponent: "0.0314", "12.3", "1570".
@@ -45,14 +55,15 @@ std::string length_text(double mm) {
   return mm >= k_shown_as_a_metre ? significant(mm / 1000.0) + " m" : significant(mm) + " mm";
 }
 
-std::string faults_text(const std::vector<result::ReadingFault>& faults, std::uint64_t count) {
+std::string faults_text(const std::vector<result::ReadingFault>& faults, std::uint64_t count,
+                        const std::string& counting) {
   std::string out;
   constexpr std::size_t k_most_shown = 3;
   const std::size_t shown = std::min(k_most_shown, faults.size());
   for (const result::ReadingFault& fault : std::span(faults).first(shown)) {
     out += "    ";
     if (!fault.buffer.empty()) out += "buffer '" + printable(fault.buffer) + "', byte " + number(fault.byte) + ": ";
-    out += printable(fault.message) + ", in cell " + cell_text(fault.cell) + "\n";
+    out += printable(fault.message) + ", in cell " + cell_text(fault.cell, counting) + "\n";
   }
   if (count > shown) out += "    and " + number(count - shown) + " more\n";
   return out;
@@ -75,15 +86,16 @@ std::string other_text(const result::CheckedSet& set) {
          number(set.error->lost_pairs) + ".\n";
 }
 
-std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_world) {
+std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_world, const std::string& counting) {
   std::string out;
   const std::size_t shown = std::min(most, set.lost.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const result::LostInCell& lost = set.lost[i];
-    out += "    light " + number(lost.light) + ", cell " + cell_text(lost.cell) + " (number " + number(lost.row) +
-           (is_world ? ", z " : ", depth ") + significant(lost.from_m, 4) + " to " + significant(lost.to_m, 4) +
-           " m): reaches in by " + length_text(lost.reach_mm) + ", " + significant(lost.reach_percent) +
-           " % of its range" + (lost.is_within_rounding ? ", within rounding" : "") + "\n";
+    out += "    light " + number(lost.light) + ", cell " + cell_text(lost.cell, counting) + " (number " +
+           number(lost.row) + (is_world ? ", z " : ", depth ") + significant(lost.from_m, 4) + " to " +
+           significant(lost.to_m, 4) + " m): reaches in by " + length_text(lost.reach_mm) + ", " +
+           significant(lost.reach_percent) + " % of its range" + (lost.is_within_rounding ? ", within rounding" : "") +
+           "\n";
   }
   if (shown > 0 && set.error->lost_pairs > shown) out += "    and " + number(set.error->lost_pairs - shown) + " more\n";
   if (set.error->lost_in_full_lists > 0)
@@ -130,24 +142,32 @@ std::string verdict_text(const result::CheckedSet& set) {
          significant(error.deepest_percent) + " % of its range";
 }
 
-// What is wrong with the entries themselves.
-std::string reading_text(const result::CheckedSet& set) {
+// What is wrong with the entries themselves; of lists that are none, the likeliest reading first.
+std::string reading_text(const result::CheckedSet& set, const std::string& counting) {
   const result::ListReading& reading = set.reading;
-  std::string out = faults_text(reading.faults, reading.fault_count);
+  const std::string faults = faults_text(reading.faults, reading.fault_count, counting);
   if (set.verdict == "unreadable")
-    out += reading.likely_reading ? "    " + *reading.likely_reading + "\n"
-                                  : std::string("    none of the readings that were tried is without faults\n");
+    return faults + (reading.likely_reading ? "" : "    none of the readings that were tried is without faults\n");
+  std::string out = faults;
   if (reading.twice_count > 0 && set.verdict != "twice") out += "    " + twice_text(reading.twice_count) + ":\n";
-  return out + faults_text(reading.twice, reading.twice_count);
+  return out + faults_text(reading.twice, reading.twice_count, counting);
 }
 
-std::string set_text(const result::CheckedSet& set, std::size_t most, bool is_world) {
+std::string remarks_text(const result::CheckedSet& set) {
+  std::string out;
+  for (const std::string& remark : set.remarks) out += "  Is the description right? " + printable(remark) + "\n";
+  return out;
+}
+
+std::string set_text(const result::CheckedSet& set, std::size_t most, bool is_world, const std::string& counting) {
   std::string out;
   if (set.other_reading) out += other_text(set);
-  out += "  " + printable(set.name) + ": " + verdict_text(set) + "\n" + reading_text(set);
-  if (set.error) out += lost_text(set, most, is_world) + errors_text(set);
-  out += "    " + number_of(set.bytes, "byte") + ", longest list " + number(set.longest_list);
-  if (set.longest_cell) out += " in cell " + cell_text(*set.longest_cell);
+  if (set.reading.likely_reading) out += "  Probably it is the description: " + *set.reading.likely_reading + "\n";
+  out += remarks_text(set) + "  " + printable(set.name) + ": " + verdict_text(set) + "\n" + reading_text(set, counting);
+  if (set.error) out += lost_text(set, most, is_world, counting) + errors_text(set);
+  out += "    " + number_of(set.bytes, "byte");
+  if (set.verdict != "unreadable") out += ", longest list " + number(set.longest_list);
+  if (set.longest_cell && set.verdict != "unreadable") out += " in cell " + cell_text(*set.longest_cell, counting);
   return out + "\n";
 }
 
@@ -180,7 +200,8 @@ std::string check_text(const result::CheckedDump& checked, std::size_t most) {
                     ": " + checked.grid_kind + " grid of " + number(checked.cells[0]) + " x " +
                     number(checked.cells[1]) + " x " + number(checked.cells[2]) + " cells, " +
                     number_of(checked.points, "point light") + " and " + number_of(checked.spots, "spot light") + "\n";
-  for (const result::CheckedSet& set : checked.sets) out += set_text(set, most, checked.grid_kind == "world");
+  for (const result::CheckedSet& set : checked.sets)
+    out += set_text(set, most, checked.grid_kind == "world", counting_text(checked));
   return out + methods_text(checked.methods) + left_out_text(checked.methods_left_out);
 }
 

@@ -8,6 +8,7 @@
 #include "core/json_document.h"
 #include "core/memory.h"
 #include "core/text.h"
+#include "dump/list_keys.h"
 #include "result/allowed_values.h"
 
 namespace clusterbench::dump {
@@ -35,8 +36,13 @@ std::uint64_t checked_size(const fs::path& path) {
   return size;
 }
 
-layout::Buffer read_buffer(const DumpFile& dump, const std::string& name, const result::DumpBuffer& given,
-                           std::uint64_t& sum) {
+// A buffer's part of its file, known to be there.
+struct FilePart {
+  fs::path path;
+  std::uint64_t at = 0, bytes = 0;
+};
+
+FilePart part_of(const DumpFile& dump, const std::string& name, const result::DumpBuffer& given) {
   const std::string pointer = "/buffers/" + name;
   if (given.file.empty() || given.file.find('\0') != std::string::npos)
     throw Error(dump.path.string(), pointer + "/file",
@@ -54,18 +60,35 @@ layout::Buffer read_buffer(const DumpFile& dump, const std::string& name, const 
     throw Error(dump.path.string(), pointer + "/bytes",
                 "is " + std::to_string(bytes) + " from byte " + std::to_string(at) + " on; " + given.file + " has " +
                     number_of(size, "byte"));
-  if (bytes > memory_limit() - std::min(sum, memory_limit()))
-    throw Error(dump.path.string(), pointer,
-                "has " + std::to_string(bytes) + " bytes: with it the buffers take more than " +
-                    std::to_string(memory_limit() >> 20) + " MiB; name the part that is needed (at, bytes)");
-  sum += bytes;
-  layout::Buffer buffer{name, path.string(), at};
-  buffer.bytes.resize(bytes);
-  std::ifstream in(path, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(at));
-  in.read(reinterpret_cast<char*>(buffer.bytes.data()), static_cast<std::streamsize>(bytes));
-  if (!in && bytes > 0) throw Error(path.string(), "", "cannot be read");
+  return {path, at, bytes};
+}
+
+layout::Buffer read_part(const std::string& name, const FilePart& part) {
+  layout::Buffer buffer{name, part.path.string(), part.at};
+  buffer.bytes.resize(part.bytes);
+  std::ifstream in(part.path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(part.at));
+  in.read(reinterpret_cast<char*>(buffer.bytes.data()), static_cast<std::streamsize>(part.bytes));
+  if (!in && part.bytes > 0) throw Error(part.path.string(), "", "cannot be read");
   return buffer;
+}
+
+// All of them are known to fit into the memory before the first is read.
+std::vector<layout::Buffer> read_buffers(const DumpFile& dump) {
+  std::vector<std::pair<std::string, FilePart>> parts;
+  std::uint64_t sum = 0;
+  for (const auto& [name, given] : *dump.record.buffers) {
+    const FilePart part = part_of(dump, name, given);
+    if (part.bytes > memory_limit() - std::min(sum, memory_limit()))
+      throw Error(dump.path.string(), "/buffers/" + name,
+                  "has " + std::to_string(part.bytes) + " bytes: with it the buffers take more than " +
+                      std::to_string(memory_limit() >> 20) + " MiB; name the part that is needed (at, bytes)");
+    sum += part.bytes;
+    parts.emplace_back(name, part);
+  }
+  std::vector<layout::Buffer> out;
+  for (const auto& [name, part] : parts) out.push_back(read_part(name, part));
+  return out;
 }
 
 }  // namespace
@@ -79,6 +102,7 @@ result::Dump parse_dump(std::string_view text, const std::string& file) {
       throw Error("", "/dump_version", "is " + json["dump_version"].dump() + "; this version reads 1");
     auto dump = result::from_json<result::Dump>(json);
     result::check_values(dump);
+    for (std::size_t i = 0; i < dump.lists.size(); ++i) check_list_keys(dump.lists[i], "/lists/" + std::to_string(i));
     return dump;
   } catch (const Error& error) {
     throw Error(file, error.where(), error.message(), error.code());
@@ -117,10 +141,7 @@ DumpFile read_dump(const fs::path& path) {
                 "has " + std::to_string(size) + " bytes; a dump's JSON has at most " +
                     std::to_string(k_most_json_bytes) + ": write lists and lights as buffers");
   DumpFile dump{path, parse_dump(file_text(path), path.string()), {}};
-  std::uint64_t sum = 0;
-  if (dump.record.buffers)
-    for (const auto& [name, buffer] : *dump.record.buffers)
-      dump.buffers.push_back(read_buffer(dump, name, buffer, sum));
+  if (dump.record.buffers) dump.buffers = read_buffers(dump);
   return dump;
 }
 
@@ -137,7 +158,9 @@ std::vector<fs::path> dump_paths(const fs::path& path) {
   if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
   std::erase_if(found, is_other_json);
   std::ranges::sort(found);
-  if (found.empty()) throw Error(path.string(), "", "has no dump in it: no .json file with a dump_version");
+  if (found.empty())
+    throw Error(path.string(), "",
+                "has no dump in it: no .json file with a dump_version (folders within it are not read)");
   return found;
 }
 

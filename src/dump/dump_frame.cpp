@@ -37,6 +37,22 @@ void mirror(scene::WorldLight& light) {
   light.direction.z = -light.direction.z;
 }
 
+// A world grid, as mirror() does with lights.
+void mirror_cells(result::DumpGrid& grid) {
+  if (grid.bounds) {
+    const double low = grid.bounds->lo_m[2];
+    grid.bounds->lo_m[2] = -grid.bounds->hi_m[2];
+    grid.bounds->hi_m[2] = -low;
+  }
+  if (grid.planes) {
+    std::vector<double>& z = grid.planes->z_m;
+    std::ranges::reverse(z);
+    for (double& plane : z) plane = -plane;
+    grid.planes->origin_m[2] = -grid.planes->origin_m[2];
+  }
+  grid.first_slice = grid.first_slice.value_or("near") == "far" ? "near" : "far";
+}
+
 view::Frame matrix_frame(const DumpFile& dump, const result::DumpCamera& given_camera, bool& is_world_mirrored) {
   const Camera camera = camera_of(given_camera, dump.record.lights.space.value_or("world") == "view");
   view::Frame frame;
@@ -63,11 +79,20 @@ void take_lights(DumpFrame& out, const std::vector<scene::WorldLight>& lights) {
   out.frame.count_types();
 }
 
+// Which of the three ways to give lights a dump has.
+std::string kinds_of(const result::DumpLights& given) {
+  std::vector<std::string> kinds;
+  if (given.rows) kinds.emplace_back("rows");
+  if (given.listed) kinds.emplace_back("listed");
+  if (given.scene.value_or(false)) kinds.emplace_back("scene");
+  return kinds.empty() ? "none" : joined(kinds, " and ");
+}
+
 DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera) {
   const result::DumpLights& given = dump.record.lights;
   const bool of_scene = given.scene.value_or(false), has_scene = !has_matrices(camera);
   if (of_scene + given.rows.has_value() + given.listed.has_value() != 1)
-    throw Error("", "/lights", "needs one of rows, listed and scene");
+    throw Error("", "/lights", "has " + kinds_of(given) + "; allowed: one of rows, listed and scene");
   if (of_scene && !has_scene) throw Error("", "/lights/scene", "is true, and the camera names no scene");
   if (has_scene && given.space.value_or("world") == "view")
     throw Error("", "/lights/space", "is view; beside the camera of a scene lights are in the world");
@@ -78,13 +103,14 @@ DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera) {
   if (lights.empty()) throw Error("", "/lights", "are none, so there is nothing to check");
   if (is_world_mirrored) std::ranges::for_each(lights, mirror);
   take_lights(out, lights);
-  if (dump.record.grid.kind.value_or("frustum") == "world") {
-    if (given.space.value_or("world") == "view")
-      throw Error("", "/lights/space", "is view; a world grid needs lights in the world");
-    if (is_world_mirrored)
-      throw Error("", "/grid/kind", "is world in a left-handed world: give lights and bounds with z reversed");
-  }
-  out.grid = grid_of(dump.record.grid, out.frame);
+  result::DumpGrid grid = dump.record.grid;
+  const bool is_world = grid.kind.value_or("frustum") == "world";
+  if (is_world && given.space.value_or("world") == "view")
+    throw Error("", "/lights/space", "is view; a world grid needs lights in the world");
+  out.has_mirrored_cells = is_world && is_world_mirrored;
+  if (out.has_mirrored_cells) mirror_cells(grid);
+  out.order = order_of(grid);
+  out.grid = grid_of(grid, out.frame);
   return out;
 }
 

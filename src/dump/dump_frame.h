@@ -14,9 +14,17 @@ struct DumpFrame {
   grid::Grid grid;
   // Of the frame's lights, which are sorted by type: the index in the dump, and back.
   std::vector<std::uint32_t> dump_index, frame_index;
+  // Of `grid`. A world grid in a left-handed world is mirrored as its lights are: its slices are the dump's from the
+  // other end.
+  layout::CellOrder order;
+  bool has_mirrored_cells = false;
 
-  layout::Shape shape(const layout::CellOrder& order) const {
-    return {grid.cells(), order, static_cast<std::uint32_t>(frame_index.size())};
+  layout::Shape shape() const { return {grid.cells(), order, static_cast<std::uint32_t>(frame_index.size())}; }
+  // Column, row and slice of a cell in the dump's own world.
+  Vec3i dump_cell(std::uint32_t cell) const {
+    Vec3i at = grid.cell_at(cell);
+    if (has_mirrored_cells) at.z = grid.cells().z - 1 - at.z;
+    return at;
   }
   // Lists of the dump's lights as lists of the frame's, ascending.
   assign::Lists in_frame(assign::Lists lists) const;

@@ -27,7 +27,13 @@ std::vector<double> formula_boundaries(const result::DumpFormula& formula, std::
     out.push_back(depth_of(formula, (static_cast<double>(i) - formula.bias) / formula.scale));
   if (!projection.orthographic) out.front() = std::max(out.front(), 0.0);
   if (projection.near_m < out[1]) out.front() = std::min(out.front(), projection.near_m);
-  if (formula.far_m) out.back() = *formula.far_m;
+  if (!formula.far_m) return out;
+  out.back() = *formula.far_m;
+  const double begin = out[out.size() - 2];
+  if (begin < out.back() && !(static_cast<float>(begin) < static_cast<float>(out.back())))
+    throw Error("", std::string(k_slices) + "/formula/far_m",
+                "is " + grid::number_name(out.back()) + " m, where the last slice (" + std::to_string(count - 1) +
+                    ") begins, at " + grid::number_name(begin) + " m: nothing is left of it; is the bias right?");
   return out;
 }
 
@@ -67,16 +73,49 @@ void set_scheme(grid::Slicing& slices, const result::DumpSlices& given) {
   if (has_first) slices.first_m = *given.first_m;
 }
 
+// Tiles without slices.
+grid::Slicing one_slice(const view::Projection& projection) {
+  if (!std::isfinite(projection.far_m))
+    throw Error("", std::string(k_slices) + "/boundaries_m",
+                "are missing: where the camera has no far plane, say where the one slice ends");
+  grid::Slicing slices;
+  set_boundaries(slices, {projection.near_m, projection.far_m}, "", "");
+  return slices;
+}
+
+// Keys beside the form of slices that reads them.
+void check_slice_keys(const result::DumpSlices& given) {
+  const char* form = given.boundaries_m ? "boundaries_m"
+                     : given.formula    ? "formula"
+                     : given.scheme     ? "scheme"
+                                        : "count";
+  const std::pair<bool, const char*> of_schemes[] = {{given.near_m.has_value(), "/near_m"},
+                                                     {given.first_m.has_value(), "/first_m"},
+                                                     {given.far_m.has_value(), "/far_m"}};
+  for (const auto& [is_given, key] : of_schemes)
+    if (is_given && !given.scheme)
+      throw Error("", std::string(k_slices) + key,
+                  std::string("has no meaning beside ") + form + "; it is of scheme" +
+                      (given.formula && key == std::string("/far_m") ? " (formula.far_m)" : ""));
+  if (!given.boundaries_m || !given.count) return;
+  const std::size_t slices = given.boundaries_m->size() - 1;
+  if (*given.count != static_cast<std::int64_t>(slices))
+    throw Error("", std::string(k_slices) + "/count",
+                "is " + std::to_string(*given.count) + "; boundaries_m are those of " + std::to_string(slices));
+}
+
 grid::Slicing slicing_of(const std::optional<result::DumpSlices>& given, const view::Projection& projection) {
   grid::Slicing slices;
-  if (!given || (!given->boundaries_m && !given->scheme && !given->formula)) {
-    if (!std::isfinite(projection.far_m))
-      throw Error("", k_slices, "are missing: where the camera has no far plane, say where the one slice ends");
-    set_boundaries(slices, {projection.near_m, projection.far_m}, "", "");
-    return slices;
+  const char* allowed = "allowed: boundaries_m, scheme or formula; count 1 alone for tiles without slices";
+  if (!given) throw Error("", k_slices, std::string("are missing; ") + allowed);
+  if (!given->boundaries_m && !given->scheme && !given->formula) {
+    if (given->count.value_or(0) != 1) throw Error("", k_slices, std::string("do not say where they are; ") + allowed);
+    check_slice_keys(*given);
+    return one_slice(projection);
   }
   if (given->boundaries_m.has_value() + given->scheme.has_value() + given->formula.has_value() != 1)
     throw Error("", k_slices, "has several of boundaries_m, scheme and formula; allowed: one");
+  check_slice_keys(*given);
   if (given->scheme) {
     set_scheme(slices, *given);
     if (slices.far_m == 0.0 && !std::isfinite(projection.far_m))
@@ -163,11 +202,22 @@ std::string place_in_dump(const std::string& key, const result::DumpGrid& given)
     if (given.slices->formula) return std::string(k_slices) + "/formula";
     if (given.slices->boundaries_m) return std::string(k_slices) + "/boundaries_m";
   }
+  if (key == "cells" && given.kind.value_or("frustum") != "world") return "/grid";  // tiles times slices
   std::string pointer = "/grid/" + key;
   std::ranges::replace(pointer, '.', '/');
   for (const char* length : {"/near", "/far", "/first"})
     if (pointer == k_slices + std::string(length)) pointer += "_m";
   return pointer;
+}
+
+// Keys of a configuration in a sentence, as those of a dump.
+std::string words_in_dump(std::string message) {
+  constexpr std::string_view k_key = "grids.*.slices.";
+  for (std::size_t at = 0; (at = message.find(k_key, at)) != std::string::npos;) {
+    message.replace(at, k_key.size(), "grid.slices.");
+    if (message.compare(at, 17, "grid.slices.first") == 0) message.insert(at + 17, "_m");
+  }
+  return message;
 }
 
 }  // namespace
@@ -200,7 +250,7 @@ grid::Grid grid_of(const result::DumpGrid& given, const view::Frame& frame) {
       count_rows_from_bottom(std::get<grid::ScreenGrid>(grid.shape), spec.tiles, frame);
     return grid;
   } catch (const Error& error) {  // names keys of a configuration, "slices.near"
-    throw Error("", place_in_dump(error.where(), given), error.message(), error.code());
+    throw Error("", place_in_dump(error.where(), given), words_in_dump(error.message()), error.code());
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "dump/lost_lights.h"
 #include "dump/other_orders.h"
+#include "dump/unread_rows.h"
 
 namespace clusterbench::dump {
 namespace {
@@ -21,18 +22,31 @@ result::CellIndex cell_index(Vec3i at) {
   return out;
 }
 
-// Ends of a cell along depth, distance, or z.
-result::Pair extent_of(const grid::Grid& grid, std::uint32_t cell, double metres_per_unit) {
-  const auto z = static_cast<std::size_t>(grid.cell_at(cell).z);
-  if (!grid.has_tiles()) {
-    const auto& planes = grid.world().z;
-    const double origin = grid.world().origin.z;
-    return {{metres_per_unit * (origin + static_cast<double>(planes[z])),
-             metres_per_unit * (origin + static_cast<double>(planes[z + 1]))}};
+// Ends of a slice of a world grid in the dump's own world: by the numbers that the dump gives, not as the grid rounds
+// them.
+result::Pair world_extent(const result::DumpGrid& given, std::int64_t z) {
+  if (given.planes) {
+    const auto i = static_cast<std::size_t>(z);
+    return {{given.planes->origin_m[2] + given.planes->z_m[i], given.planes->origin_m[2] + given.planes->z_m[i + 1]}};
   }
-  const auto& boundaries = grid.screen().slices.boundaries;
-  return {
-      {metres_per_unit * static_cast<double>(boundaries[z]), metres_per_unit * static_cast<double>(boundaries[z + 1])}};
+  const double low = given.bounds->lo_m[2], high = given.bounds->hi_m[2];
+  const auto cells = static_cast<double>((*given.cells)[2]);
+  const auto plane = [&](double i) { return i == cells ? high : low + (high - low) * (i / cells); };
+  return {{plane(static_cast<double>(z)), plane(static_cast<double>(z + 1))}};
+}
+
+// Ends of a cell along depth, distance, or z.
+result::Pair extent_of(const DumpFrame& frame, const result::Dump& dump, std::uint32_t cell) {
+  const auto z = static_cast<std::size_t>(frame.dump_cell(cell).z);
+  result::Pair out;
+  if (frame.grid.has_tiles()) {
+    const auto& boundaries = frame.grid.screen().slices.boundaries;
+    out = {{static_cast<double>(boundaries[z]), static_cast<double>(boundaries[z + 1])}};
+  } else {
+    out = world_extent(dump.grid, frame.dump_cell(cell).z);
+  }
+  for (double& end : out) end *= dump.metres_per_unit.value_or(1.0);
+  return out;
 }
 
 class SetJudge {
@@ -41,8 +55,7 @@ class SetJudge {
       : dump_(dump),
         frame_(frame),
         truth_(truth),
-        order_(order_of(dump.record.grid)),
-        shape_(frame.shape(order_)),
+        shape_(frame.shape()),
         metres_per_unit_(dump.record.metres_per_unit.value_or(1.0)),
         threads_(options.threads),
         page_(options.page),
@@ -54,6 +67,7 @@ class SetJudge {
     layout::Decoded decoded = layout::decode(set.parts, dump_.buffers, shape_);
     out.bytes = layout::bytes_of(set.parts, dump_.buffers);
     add_reading(set, decoded, out);
+    out.remarks = unread_rows(dump_, set, frame_.grid.cells());
     const assign::Lists listed = frame_.in_frame(std::move(decoded.lists));
     add_longest(listed, out);
     if (page_ != nullptr) page_->sets.push_back({set.name, {}, 0});
@@ -73,8 +87,10 @@ class SetJudge {
                   : lost.within_rounding > 0 ? "rounding"
                                              : "right";
     if (!is_beyond && !are_for_nothing(lost)) return out;
-    if (auto other = better_reading(dump_, frame_, set, truth_.lists, listed, lost, threads_)) {
-      out.other_reading = *other;
+    const Readings readings = better_reading(dump_, frame_, set, truth_.lists, listed, lost, threads_);
+    if (!readings.remark.empty()) out.remarks.push_back(readings.remark);
+    if (readings.better) {
+      out.other_reading = *readings.better;
       out.verdict = "misread";
     }
     return out;
@@ -83,7 +99,7 @@ class SetJudge {
  private:
   result::ReadingFault fault_record(const layout::Fault& fault) const {
     return {fault.buffer == nullptr ? "" : fault.buffer->name, fault.byte, fault.value,
-            cell_index(frame_.grid.cell_at(fault.cell)), fault.message};
+            cell_index(frame_.dump_cell(fault.cell)), fault.message};
   }
 
   void add_reading(const ListSet& set, const layout::Decoded& decoded, result::CheckedSet& out) const {
@@ -116,7 +132,7 @@ class SetJudge {
   void add_longest(const assign::Lists& listed, result::CheckedSet& out) const {
     const std::uint32_t fullest = listed.fullest_cell();
     out.longest_list = listed.of(fullest).size();
-    if (out.longest_list > 0) out.longest_cell = cell_index(frame_.grid.cell_at(fullest));
+    if (out.longest_list > 0) out.longest_cell = cell_index(frame_.dump_cell(fullest));
   }
 
   void add_errors(const LostLights& lost, result::CheckedSet& out) const {
@@ -135,9 +151,9 @@ class SetJudge {
       error.deepest_percent = 100.0 * lost.deepest.front().reach;
     }
     for (const LostPair& pair : lost.deepest) {
-      const Vec3i at = frame_.grid.cell_at(pair.cell);
-      const auto [from, to] = extent_of(frame_.grid, pair.cell, metres_per_unit_);
-      out.lost.push_back({frame_.dump_index[pair.light], cell_index(at), order_.cell(at, frame_.grid.cells()), from, to,
+      const auto [from, to] = extent_of(frame_, dump_.record, pair.cell);
+      out.lost.push_back({frame_.dump_index[pair.light], cell_index(frame_.dump_cell(pair.cell)),
+                          frame_.order.cell(frame_.grid.cell_at(pair.cell), frame_.grid.cells()), from, to,
                           reach_mm(pair), 100.0 * pair.reach, pair.is_within_rounding});
     }
   }
@@ -145,7 +161,6 @@ class SetJudge {
   const DumpFile& dump_;
   const DumpFrame& frame_;
   const measure::Truth& truth_;
-  layout::CellOrder order_;
   layout::Shape shape_;
   double metres_per_unit_;
   int threads_;
@@ -166,6 +181,9 @@ result::CheckedDump judged(const DumpFile& dump, const JudgeOptions& options) {
   out.spots = frame.frame.lights.size() - frame.frame.points;
   out.grid_kind = grid::kind_name(frame.grid.kind());
   out.cells = cell_index(frame.grid.cells());
+  const layout::CellOrder order = order_of(dump.record.grid);
+  out.first_row = order.is_from_bottom ? "bottom" : "top";
+  out.first_slice = order.is_from_far ? "far" : "near";
   const measure::Truth truth = measure::find_truth(frame.frame, frame.grid, options.threads);
   if (options.page != nullptr) *options.page = page_frame(frame, dump.record.metres_per_unit.value_or(1.0));
   const SetJudge judge(dump, frame, truth, options);

@@ -4,32 +4,49 @@
 #include <glm/matrix.hpp>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "dump/camera.h"
 #include "geom/shapes/domain.h"
 
 namespace clusterbench::dump {
 namespace {
 
+// Beyond other words on the same matrices.
 struct CameraChange {
-  const char* text;
-  bool is_transposed = false, is_turned = false, has_other_depth = false, is_inverse = false;
+  std::string text;
+  result::DumpCamera camera;
   Vec3d mirrored{1.0};  // signs of view space: lights are seen in a mirror
 };
-const CameraChange k_changes[] = {
-    {.text = "camera.order: the matrices transposed", .is_transposed = true},
-    {.text = "camera.forward: the other way", .is_turned = true},
-    {.text = "camera.order and camera.forward: both the other", .is_transposed = true, .is_turned = true},
-    {.text = "camera.depth: the other of 0..1 and -1..1", .has_other_depth = true},
-    {.text = "camera.view_to_world and camera.world_to_view: the other of the two (the matrix is the inverse)",
-     .is_inverse = true},
-    {.text = "camera: the other handedness (the z row of world_to_view negated, or camera.forward and projection both "
-             "the other way)",
-     .mirrored = {1.0, 1.0, -1.0}},
-    {.text = "camera: the x row of world_to_view negated", .mirrored = {-1.0, 1.0, 1.0}},
-    {.text = "camera: the x and z rows of world_to_view negated", .mirrored = {-1.0, 1.0, -1.0}}};
 
-bool is_mirrored(const CameraChange& change) {
-  return change.mirrored != Vec3d(1.0);
+// The other way is either of two: also the numbers may be those of the other handedness.
+std::string words_text(const CameraWords& words) {
+  std::vector<std::string> changes = words.changes;
+  for (std::string& change : changes)
+    if (change.starts_with("camera.forward")) change = "camera.forward: the other way";
+  return joined(changes, " and ");
+}
+
+// In the order in which they are believed. Where lights are in view space there is no view matrix to invert.
+std::vector<CameraChange> camera_changes(const DumpFile& dump) {
+  const result::DumpCamera& given = dump.record.camera;
+  std::vector<CameraChange> out;
+  // No camera changes the cells of a world grid.
+  if (!has_matrices(given) || dump.record.grid.kind.value_or("frustum") == "world") return out;
+  for (const CameraWords& words : other_camera_words(given, dump.record.lights.space.value_or("world") == "view"))
+    out.push_back({words_text(words), words.camera});
+  if (given.world_to_view || given.view_to_world) {
+    out.push_back(
+        {"camera.view_to_world and camera.world_to_view: the other of the two (the matrix is the inverse)", given});
+    std::swap(out.back().camera.world_to_view, out.back().camera.view_to_world);
+  }
+  out.push_back(
+      {"camera: the other handedness (the z row of world_to_view negated, or camera.forward and projection both the "
+       "other way)",
+       given,
+       {1.0, 1.0, -1.0}});
+  out.push_back({"camera: the x row of world_to_view negated", given, {-1.0, 1.0, 1.0}});
+  out.push_back({"camera: the x and z rows of world_to_view negated", given, {-1.0, 1.0, -1.0}});
+  return out;
 }
 
 // Moves all lights to where a camera sees them whose rows of the view matrix have these signs.
@@ -42,19 +59,11 @@ void mirror_lights(view::Frame& frame, const Vec3d& signs) {
   }
 }
 
-// nullopt where the camera has no matrices, or they are none of a camera that way.
+// nullopt where the matrices are none of a camera that way.
 std::optional<DumpFrame> changed_frame(const DumpFile& dump, const CameraChange& change) {
-  result::DumpCamera camera = dump.record.camera;
-  if (!has_matrices(camera) || (is_mirrored(change) && dump.record.grid.kind.value_or("frustum") == "world"))
-    return std::nullopt;
-  if (change.is_inverse && !camera.world_to_view && !camera.view_to_world) return std::nullopt;  // lights in view space
-  if (change.is_transposed) camera.order = camera.order.value_or("columns") == "columns" ? "rows" : "columns";
-  if (change.has_other_depth) camera.depth = camera.depth.value_or("0..1") == "0..1" ? "-1..1" : "0..1";
-  if (change.is_turned) camera.forward = camera.forward.value_or("-z") == "-z" ? "+z" : "-z";
-  if (change.is_inverse) std::swap(camera.world_to_view, camera.view_to_world);
   try {
-    DumpFrame frame = frame_of(dump, camera);
-    if (is_mirrored(change)) mirror_lights(frame.frame, change.mirrored);
+    DumpFrame frame = frame_of(dump, change.camera);
+    if (change.mirrored != Vec3d(1.0)) mirror_lights(frame.frame, change.mirrored);
     return frame;
   } catch (const Error&) {
     return std::nullopt;
@@ -103,7 +112,7 @@ double changed_range(double range_m, double given_power, const RangeChange& chan
 }  // namespace
 
 void each_other_camera(const DumpFile& dump, const TryFrame& try_frame) {
-  for (const CameraChange& change : k_changes) {
+  for (const CameraChange& change : camera_changes(dump)) {
     const std::optional<DumpFrame> other = changed_frame(dump, change);
     if (other && try_frame(*other, change.text)) return;
   }
@@ -126,6 +135,15 @@ void each_other_range(const DumpFile& dump, const DumpFrame& frame, const Wanted
     }
     const bool is_wanted = smaller > larger ? wanted.smaller : larger > 0 && wanted.larger;
     if (is_wanted && try_frame(other, text)) return;
+  }
+}
+
+void each_larger_range(const DumpFile& dump, const DumpFrame& frame, const TryFrame& try_frame) {
+  if (!dump.record.lights.rows && !dump.record.lights.listed) return;
+  for (const int factor : {4, 8, 16}) {
+    DumpFrame other = frame;
+    for (scene::WorldLight& light : other.frame.lights) light.range_m = geom::range_in_domain(factor * light.range_m);
+    if (try_frame(other, "ranges " + std::to_string(factor) + " times as large")) return;
   }
 }
 

@@ -12,7 +12,7 @@ namespace clusterbench::dump {
 // Looks at a frame; true: no further one is wanted. `change`: what differs, as "camera.forward: the other way".
 using TryFrame = std::function<bool(const DumpFrame& frame, const std::string& change)>;
 
-// Matrices transposed or inverse, the other way, the other depth, mirrored; those that are cameras.
+// Matrices transposed (both, or one alone) or inverse, the other way, another depth, mirrored; those that are cameras.
 void each_other_camera(const DumpFile& dump, const TryFrame& try_frame);
 
 // Whether most ranges may become smaller, and larger.
@@ -23,5 +23,8 @@ struct WantedRanges {
 // `frame` with its lights' ranges as other values of range.is, halved and doubled; not where lights are of a scene.
 void each_other_range(const DumpFile& dump, const DumpFrame& frame, const WantedRanges& wanted,
                       const TryFrame& try_frame);
+
+// With 4, 8 and 16 times the ranges.
+void each_larger_range(const DumpFile& dump, const DumpFrame& frame, const TryFrame& try_frame);
 
 }  // namespace clusterbench::dump

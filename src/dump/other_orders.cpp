@@ -10,8 +10,9 @@ namespace clusterbench::dump {
 namespace {
 
 constexpr std::uint64_t k_times_fewer = 100;
-constexpr std::uint64_t k_too_few = 10;  // to say so
-constexpr double k_times_chance = 10.0;  // as many pairs as a reading loses are lost by chance
+constexpr std::uint64_t k_too_few = 10;     // to say so
+constexpr std::uint64_t k_times_more = 10;  // true pairs, to remark on
+constexpr double k_times_chance = 10.0;     // as many pairs as a reading loses are lost by chance
 
 bool is_of_tiles(const ListSet& set) {
   return std::ranges::all_of(set.parts, [](const layout::ListPart& part) {
@@ -72,8 +73,12 @@ struct Evidence {
 
 class BestReading {
  public:
-  BestReading(const result::DumpGrid& given, const ListSet& set, const LostLights& found, std::size_t lights)
-      : given_(order_of(given)), of_tiles_(is_of_tiles(set)), found_(found), lights_(lights) {
+  BestReading(const DumpFrame& frame, const ListSet& set, const LostLights& found)
+      : given_(frame.order),
+        is_mirrored_(frame.has_mirrored_cells),
+        of_tiles_(is_of_tiles(set)),
+        found_(found),
+        lights_(frame.frame.lights.size()) {
     if (is_lost_) most_ = found.lost_pairs / k_times_fewer;
     if (is_for_nothing_) most_ = std::max(most_, found.listed_pairs / k_times_fewer);
   }
@@ -93,7 +98,9 @@ class BestReading {
       const auto source = [&](std::uint32_t cell) {
         return grid::cell_index(source_cell(given_, order, grid.cell_at(cell), cells, of_tiles_), cells);
       };
-      take(count_lost(truth, listed, source, most_), evidence, reading_in(order, camera, "", ""));
+      const std::uint64_t lost = count_lost(truth, listed, source, most_);
+      take(lost, evidence, reading_in(order, camera, "", ""));
+      if (order == given_ && !camera.empty()) note(lost, evidence, camera);
     }
   }
   // Lists that are read another way, in the dump's own order.
@@ -107,15 +114,18 @@ class BestReading {
       return;
     take(lost, evidence_of(truth, listed), reading_in(given_, "", change, ""));
   }
-  // Lights with other ranges.
-  void try_ranges(const assign::Lists& truth, const assign::Lists& listed, const std::string& change) {
+  // Lights with other ranges. Whether none is lost.
+  bool try_ranges(const assign::Lists& truth, const assign::Lists& listed, const std::string& change) {
     const std::uint64_t lost = count_lost(
         truth, listed, [](std::uint32_t cell) { return cell; }, most_);
     Evidence evidence = evidence_of(truth, listed);
     evidence.is_strict = true;
     take(lost, evidence, reading_in(given_, "", "", change));
+    note(lost, evidence, change);
+    return lost == 0;
   }
   const std::optional<result::OtherReading>& best() const { return best_; }
+  Readings readings() const { return {best_, best_ ? "" : remark_}; }
 
  private:
   static std::uint64_t true_of(std::uint64_t lost, const assign::Lists& truth) {
@@ -126,14 +136,21 @@ class BestReading {
   }
   result::OtherReading reading_in(const layout::CellOrder& order, const std::string& camera, const std::string& lists,
                                   const std::string& lights) const {
-    return {order.axes,
-            order.is_from_bottom ? "bottom" : "top",
-            order.is_from_far ? "far" : "near",
-            order_change(given_, order),
+    const layout::CellOrder named = in_dump(order);
+    return {named.axes,
+            named.is_from_bottom ? "bottom" : "top",
+            named.is_from_far ? "far" : "near",
+            order_change(in_dump(given_), named),
             camera,
             lists,
             lights,
             0};
+  }
+
+  // In the dump's words.
+  layout::CellOrder in_dump(layout::CellOrder order) const {
+    order.is_from_far = order.is_from_far != is_mirrored_;
+    return order;
   }
 
   // Lists that lose nothing by chance are no evidence, and neither are a few pairs beside all that are lost.
@@ -174,19 +191,32 @@ class BestReading {
     best_wrong_ = wrong;
   }
 
+  // What makes many more of the listed pairs true, and loses none; the most are remarked on.
+  void note(std::uint64_t lost, const Evidence& evidence, const std::string& change) {
+    const std::uint64_t are_true = evidence.truth.pair_count(), were_true = found_.true_pairs - found_.lost_pairs;
+    if (lost > 0 || are_true <= most_noted_ || are_true < k_times_more * std::max<std::uint64_t>(were_true, 1) ||
+        evidence.by_chance < k_times_chance)
+      return;
+    most_noted_ = are_true;
+    remark_ = "with " + change + ", " + std::to_string(are_true) + " of the " + std::to_string(found_.listed_pairs) +
+              " listed pairs would be true in place of " + std::to_string(were_true) + ", and none would be lost";
+  }
+
   layout::CellOrder given_;
-  bool of_tiles_;
+  bool is_mirrored_, of_tiles_;
   const LostLights& found_;
   std::size_t lights_;
   bool is_lost_ = found_.lost_pairs >= k_too_few;
   bool is_for_nothing_ = found_.listed_pairs >= k_too_few && are_for_nothing(found_);
   std::uint64_t most_ = 0, best_wrong_ = 0;
   std::optional<result::OtherReading> best_;
+  std::uint64_t most_noted_ = 0;
+  std::string remark_;
 };
 
 void try_descriptions(const DumpFile& dump, const DumpFrame& frame, const ListSet& set, const assign::Lists& truth,
                       BestReading& best) {
-  const layout::Shape shape = frame.shape(order_of(dump.record.grid));
+  const layout::Shape shape = frame.shape();
   for (const layout::OtherDescription& other : layout::other_descriptions(set.parts)) try {
       layout::Decoded decoded = layout::decode(other.parts, dump.buffers, shape);
       const assign::Lists listed = frame.in_frame(std::move(decoded.lists));
@@ -195,47 +225,63 @@ void try_descriptions(const DumpFile& dump, const DumpFrame& frame, const ListSe
     }
 }
 
-// Other cameras and other ranges.
-void try_frames(const DumpFile& dump, const DumpFrame& frame, const assign::Lists& listed, std::optional<bool> rows,
-                int threads, BestReading& best) {
-  const auto tried = [&](const DumpFrame& other, auto&& try_truth) {
-    try {
-      try_truth(measure::find_truth(other.frame, other.grid, threads).lists);
-    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): more pairs than the memory holds
-    }
-    return best.best().has_value();
-  };
+// Calls try_truth(exact lists) and returns what it returns; false where they are more than the memory holds.
+template <class TryTruth>
+bool try_truth_of(const DumpFrame& frame, int threads, TryTruth&& try_truth) {
+  try {
+    return try_truth(measure::find_truth(frame.frame, frame.grid, threads).lists);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void try_cameras(const DumpFile& dump, const assign::Lists& listed, std::optional<bool> rows, int threads,
+                 BestReading& best) {
   each_other_camera(dump, [&](const DumpFrame& other, const std::string& change) {
-    return tried(other, [&](const assign::Lists& truth) { best.try_orders(other.grid, truth, listed, change, rows); });
+    return try_truth_of(other, threads, [&](const assign::Lists& truth) {
+      best.try_orders(other.grid, truth, listed, change, rows);
+      return best.best().has_value();
+    });
   });
-  if (best.best()) return;
-  each_other_range(dump, frame, best.wanted_ranges(), [&](const DumpFrame& other, const std::string& change) {
-    tried(other, [&](const assign::Lists& truth) { best.try_ranges(truth, listed, change); });
+}
+
+void try_other_ranges(const DumpFile& dump, const DumpFrame& frame, const assign::Lists& listed, int threads,
+                      BestReading& best) {
+  bool is_none_lost = false;  // with the ranges that were tried last
+  const auto try_one = [&](const DumpFrame& other, const std::string& change) {
+    is_none_lost = try_truth_of(other, threads,
+                                [&](const assign::Lists& truth) { return best.try_ranges(truth, listed, change); });
     return false;  // several may fit: the best is said
+  };
+  each_other_range(dump, frame, best.wanted_ranges(), try_one);
+  if (best.best() || !is_none_lost || !best.wanted_ranges().larger) return;
+  // The last were twice the ranges.
+  each_larger_range(dump, frame, [&](const DumpFrame& other, const std::string& change) {
+    try_one(other, change);
+    return !is_none_lost;
   });
 }
 
 }  // namespace
 
-std::optional<result::OtherReading> better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set,
-                                                   const assign::Lists& truth, const assign::Lists& listed,
-                                                   const LostLights& found, int threads) {
-  BestReading best(dump.record.grid, set, found, frame.frame.lights.size());
-  if (!best.is_wanted() || listed.pair_count() == 0) return std::nullopt;
+Readings better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set, const assign::Lists& truth,
+                        const assign::Lists& listed, const LostLights& found, int threads) {
+  BestReading best(frame, set, found);
+  if (!best.is_wanted() || listed.pair_count() == 0) return {};
   const auto truth_in = [threads](const view::Frame& of, const grid::Grid& grid) {
     return measure::find_truth(of, grid, threads).lists;
   };
   const std::optional<grid::Grid> turned = grid_from_other_row(dump, frame);
-  const bool is_from_bottom = order_of(dump.record.grid).is_from_bottom;
+  const bool is_from_bottom = frame.order.is_from_bottom;
   const std::optional<bool> rows = turned ? std::optional(is_from_bottom) : std::nullopt;
   if (best.is_lost()) {  // no order and no other list makes more of the true pairs listed where none is lost
     best.try_orders(frame.grid, truth, listed, "", rows);
     if (turned && !best.best()) best.try_orders(*turned, truth_in(frame.frame, *turned), listed, "", !is_from_bottom);
     if (!best.best()) try_descriptions(dump, frame, set, truth, best);
   }
-  if (best.best()) return best.best();
-  try_frames(dump, frame, listed, rows, threads, best);
-  return best.best();
+  if (!best.best()) try_cameras(dump, listed, rows, threads, best);
+  if (!best.best()) try_other_ranges(dump, frame, listed, threads, best);
+  return best.readings();
 }
 
 }  // namespace clusterbench::dump

@@ -24,13 +24,20 @@ result::Matrix matrix_record(const Mat3d& m) {
   return out;
 }
 
-result::CheckPageGrid world_grid(const grid::WorldGrid& world, const view::Frame& frame, double metres_per_unit) {
-  return {"box",
-          scaled(world.x, metres_per_unit),
-          scaled(world.y, metres_per_unit),
-          scaled(world.z, metres_per_unit),
-          matrix_record(frame.view_space.rotation),
-          vector_record(metres_per_unit * (frame.view_space.origin - world.origin))};
+// In the dump's own world: cells of a mirrored one are mirrored back.
+result::CheckPageGrid world_grid(const DumpFrame& frame, double metres_per_unit) {
+  const grid::WorldGrid& world = frame.grid.world();
+  std::vector<double> z = scaled(world.z, metres_per_unit);
+  Mat3d to_view = frame.frame.view_space.rotation;
+  Vec3d eye = metres_per_unit * (frame.frame.view_space.origin - world.origin);
+  if (frame.has_mirrored_cells) {
+    std::ranges::reverse(z);
+    for (double& plane : z) plane = -plane;
+    to_view[2] = -to_view[2];
+    eye.z = -eye.z;
+  }
+  return {"box", scaled(world.x, metres_per_unit), scaled(world.y, metres_per_unit),
+          z,     matrix_record(to_view),           vector_record(eye)};
 }
 
 result::CheckPageGrid screen_grid(const grid::ScreenGrid& screen, double metres_per_unit) {
@@ -64,8 +71,8 @@ std::vector<std::uint32_t> without(std::span<const std::uint32_t> all, std::span
 
 result::CheckPageFrame page_frame(const DumpFrame& frame, double metres_per_unit) {
   result::CheckPageFrame out;
-  out.grid = frame.grid.has_tiles() ? screen_grid(frame.grid.screen(), metres_per_unit)
-                                    : world_grid(frame.grid.world(), frame.frame, metres_per_unit);
+  out.grid =
+      frame.grid.has_tiles() ? screen_grid(frame.grid.screen(), metres_per_unit) : world_grid(frame, metres_per_unit);
   const view::Projection& projection = frame.frame.projection;
   out.sides = {projection.left, projection.right, projection.bottom, projection.top};
   out.orthographic = projection.orthographic;
@@ -88,7 +95,8 @@ result::CheckPageSet page_set(const std::string& name, const DumpFrame& frame, c
       continue;
     }
     room -= entries;
-    out.cells.push_back({pair.cell, 100.0 * pair.reach, in_dump(listed.of(pair.cell), frame),
+    out.cells.push_back({grid::cell_index(frame.dump_cell(pair.cell), frame.grid.cells()), 100.0 * pair.reach,
+                         in_dump(listed.of(pair.cell), frame),
                          in_dump(without(truth.of(pair.cell), listed.of(pair.cell)), frame),
                          in_dump(without(listed.of(pair.cell), truth.of(pair.cell)), frame)});
   }

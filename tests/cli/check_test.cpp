@@ -237,7 +237,34 @@ TEST(Check, the_other_convention_of_depth_is_said_where_it_fits) {
   small.dump["camera"]["depth"] = "0..1";
   const Outcome other = small.check();
   EXPECT_EQ(other.code, 1);
-  EXPECT_NE(other.out.find("camera.depth: the other of 0..1 and -1..1"), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("with camera.depth '-1..1'"), std::string::npos) << other.out;
+}
+
+TEST(Check, keys_that_a_layout_does_not_read_and_grids_without_slices_are_refused) {
+  Small keys, slices;
+  keys.dump["lists"][0]["per_cell"] = 4;
+  EXPECT_NE(keys.check().err.find("dump.json: /lists/0/per_cell: has no meaning with layout 'packed'; it is of fixed"),
+            std::string::npos)
+      << keys.check().err;
+  EXPECT_EQ(tool("validate " + keys.path()).code, 2);
+  slices.dump["grid"].erase("slices");
+  EXPECT_NE(slices.check().err.find("dump.json: /grid/slices: are missing; allowed: boundaries_m, scheme or formula"),
+            std::string::npos)
+      << slices.check().err;
+}
+
+TEST(Check, a_page_has_the_name_of_one_and_folders_within_a_folder_are_not_read) {
+  const Small small;
+  const Outcome page = small.check("--page " + (small.folder / "page.txt").string());
+  EXPECT_EQ(page.code, 2);
+  EXPECT_NE(page.err.find("--page: is '"), std::string::npos) << page.err;
+  EXPECT_FALSE(fs::exists(small.folder / "page.txt"));
+  const Folder outer;
+  fs::create_directory(outer / "sub");
+  fs::copy_file(small.path(), outer / "sub" / "dump.json");
+  const Outcome folder = tool("check " + outer.path().string());
+  EXPECT_EQ(folder.code, 2);
+  EXPECT_NE(folder.err.find("(folders within it are not read)"), std::string::npos) << folder.err;
 }
 
 TEST(Check, runs_of_more_lights_than_there_are_take_no_memory) {

@@ -26,8 +26,8 @@ std::vector<float> boundaries(const char* slices, const view::Frame& frame = fra
 }
 
 TEST(DumpGrid, tiles_in_pixels_are_counted_from_the_first_row) {
-  const char* from_top = R"({"tiles": {"pixels": [100, 100]}, "first_row": "top"})";
-  const char* from_bottom = R"({"tiles": {"pixels": [100, 100]}, "first_row": "bottom"})";
+  const char* from_top = R"({"tiles": {"pixels": [100, 100]}, "slices": {"count": 1}, "first_row": "top"})";
+  const char* from_bottom = R"({"tiles": {"pixels": [100, 100]}, "slices": {"count": 1}, "first_row": "bottom"})";
   const grid::Tiles top = grid_of(grid_with(from_top), frame_720()).screen().tiles;
   const grid::Tiles bottom = grid_of(grid_with(from_bottom), frame_720()).screen().tiles;
   ASSERT_EQ(top.y.size(), 9u);
@@ -77,12 +77,38 @@ TEST(DumpGrid, boundaries_of_our_own_grids_come_back_to_the_bit) {
   EXPECT_EQ(frame_of(dump).frame.view_space.rotation, made.frame.view_space.rotation);
 }
 
-TEST(DumpGrid, without_slices_there_is_one_to_the_far_plane) {
+TEST(DumpGrid, tiles_without_slices_say_so) {
   view::Frame frame = frame_720();
-  EXPECT_EQ(grid_of(grid_with(R"({"tiles": {"count": [4, 3]}})"), frame).screen().slices.boundaries.back(), 200.0f);
+  const std::vector<float> ends = boundaries(R"({"count": 1})", frame);
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_FLOAT_EQ(ends[0], 0.1f);
+  EXPECT_FLOAT_EQ(ends[1], 200.0f);
   frame.projection.far_m = INFINITY;
-  EXPECT_THROW(grid_of(grid_with(R"({"tiles": {"count": [4, 3]}})"), frame), Error);
+  EXPECT_THROW(boundaries(R"({"count": 1})", frame), Error);
   EXPECT_THROW(boundaries(R"({"scheme": "linear", "count": 4})", frame), Error);
+}
+
+TEST(DumpGrid, slices_that_do_not_say_where_they_are_are_refused) {
+  const std::pair<const char*, const char*> rows[] = {
+      {R"({"tiles": {"count": [4, 3]}})",
+       "/grid/slices: are missing; allowed: boundaries_m, scheme or formula; count 1"},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {}})", "/grid/slices: do not say where they are; allowed: "},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {"count": 2}})", "/grid/slices: do not say where they are; allowed: "},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {"count": 1, "far_m": 9}})",
+       "/grid/slices/far_m: has no meaning beside count; it is of scheme"},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {"count": 3, "boundaries_m": [1, 2, 3]}})",
+       "/grid/slices/count: is 3; boundaries_m are those of 2"},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {"near_m": 1, "boundaries_m": [1, 2, 3]}})",
+       "/grid/slices/near_m: has no meaning beside boundaries_m; it is of scheme"},
+      {R"({"tiles": {"count": [4, 3]}, "slices": {"far_m": 9, "count": 2,
+           "formula": {"function": "linear", "scale": 1, "bias": 0}}})",
+       "/grid/slices/far_m: has no meaning beside formula; it is of scheme (formula.far_m)"}};
+  for (const auto& [json, wanted] : rows) try {
+      grid_of(grid_with(json), frame_720());
+      ADD_FAILURE() << wanted;
+    } catch (const Error& error) {
+      EXPECT_EQ((error.where() + ": " + error.message()).substr(0, std::string(wanted).size()), wanted);
+    }
 }
 
 TEST(DumpGrid, a_world_grid_may_give_its_planes) {

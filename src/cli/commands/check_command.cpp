@@ -8,6 +8,7 @@
 
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
+#include "core/error.h"
 #include "core/text.h"
 #include "dump/dump_template.h"
 #include "dump/judge.h"
@@ -115,6 +116,9 @@ ExitCode check(const CheckFlags& flags) {
   if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
   const CheckInputs inputs = inputs_of(flags);
   refuse_overwriting({flags.json, flags.page}, inputs.files);
+  if (!flags.page.empty() && flags.page != "-" && !flags.page.ends_with(".html") && !flags.page.ends_with(".htm"))
+    throw Error("", "--page",
+                "is '" + flags.page + "'; allowed: the name of a page, FILE.html, or - for standard output");
   LaterOutput output(flags.json, flags.json.empty()), page_output(flags.page, flags.page.empty());
   std::ostream& out = flags.json == "-" || flags.page == "-" ? std::cerr : std::cout;
   result::CheckPage page;

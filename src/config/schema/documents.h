@@ -46,6 +46,8 @@ Document document_of(const Json& value) {
   if (value.contains("check_version")) return Document::check;
   if (value.contains("plugin_check_version")) return Document::plugin_check;
   if (value.contains("shader_version")) return Document::shader;
+  // One that lacks its version is told so.
+  if (value.contains("passes") && value.contains("buffers") && !value.contains("scenes")) return Document::shader;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }
