@@ -94,6 +94,9 @@ struct CheckedSet {
               "rounding; right: nothing of all that")
             .one_of({"unreadable", "misread", "lost", "twice", "empty", "rounding", "right"}));
   FIELD(ListReading, reading, "The buffers");
+  FIELD(std::vector<std::string>, remarks,
+        "What may be wrong with the description, though no other reading is likelier: rows of buffers that are not "
+        "read, cameras and ranges that make many more listed pairs true");
   FIELD(std::uint64_t, bytes, "Of all buffers that its lists are read from", "bytes");
   FIELD(std::uint64_t, longest_list, "Most lights in a cell", "lights");
   FIELD(Nullable<CellIndex>, longest_cell, "The first cell with so many; null: all are empty");
@@ -123,6 +126,11 @@ struct CheckedDump {
   FIELD(std::uint64_t, spots, "Spot lights", "lights");
   FIELD(std::string, grid_kind, "Of the grid");
   FIELD(CellIndex, cells, "Numbers of columns, rows and slices");
+  FIELD(std::string, first_row,
+        About("As grid.first_row of the dump, whose rows `row` counts; `cell` always counts from the top")
+            .one_of({"top", "bottom"}));
+  FIELD(std::string, first_slice,
+        About("As grid.first_slice, in the same way; `cell` always counts from the near end").one_of({"near", "far"}));
   FIELD(std::vector<CheckedSet>, sets, "In the order of the dump");
   FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --methods none");
   FIELD(std::vector<std::string>, methods_left_out, "Of those that were asked for: would take too long on this frame");

@@ -114,14 +114,19 @@ struct DumpFormula {
 };
 
 struct DumpSlices {
-  static About about() { return About("By boundaries_m, scheme or formula: one of these. Absent: one slice"); }
+  static About about() {
+    return About(
+        "By boundaries_m, scheme or formula: one of these; tiles without slices have count 1 alone, from the camera's "
+        "near to its far");
+  }
   RECORD(DumpSlices);
   FIELD(std::optional<std::vector<double>>, boundaries_m,
         About("Ends of all slices from near to far, one more than slices", "m").finite().items(2, 65536));
   FIELD(std::optional<std::string>, scheme,
         About("exponential-first: the first slice ends at first_m, the others grow by a factor")
             .one_of({"linear", "exponential", "exponential-first"}));
-  FIELD(std::optional<std::int64_t>, count, About("Slices; with scheme or formula").at_least(1).at_most(65535));
+  FIELD(std::optional<std::int64_t>, count,
+        About("Slices; with scheme or formula, or 1 alone").at_least(1).at_most(65535));
   FIELD(std::optional<double>, near_m, About("With scheme; absent: the camera's near", "m").finite());
   FIELD(std::optional<double>, first_m, About("With scheme exponential-first", "m").finite().above(0));
   FIELD(std::optional<double>, far_m, About("With scheme; absent: the camera's far", "m").finite().above(0));
@@ -153,7 +158,7 @@ struct DumpGrid {
               "world's axes; absent: frustum")
             .one_of({"frustum", "distance", "world"}));
   FIELD(std::optional<DumpTiles>, tiles, "By count or pixels; not of a world grid");
-  FIELD(std::optional<DumpSlices>, slices, "Not of a world grid");
+  FIELD(std::optional<DumpSlices>, slices, "Of grids of tiles, which need it; not of a world grid");
   FIELD(std::optional<Size3>, cells, About("Only of a world grid: cells along x, y and z").at_least(1).at_most(65535));
   FIELD(std::optional<DumpBounds>, bounds, "Only of a world grid");
   FIELD(std::optional<DumpPlanes>, planes, "Only of a world grid, in place of cells and bounds");
@@ -300,7 +305,10 @@ struct DumpLists {
             .one_of({"packed", "fixed", "runs", "bits", "bits_and_bins", "bits_and_slice_ranges", "linked", "inline"}));
   FIELD(std::optional<std::uint64_t>, first_light, "Of `lights`: what index 0 of this part means; absent: 0");
   FIELD(std::optional<std::uint64_t>, lights, "Number of lights that this part has; absent: all from first_light on");
-  FIELD(std::optional<bool>, per_tile, "bits: one row per tile, for all of its slices; absent: a row per cell");
+  FIELD(
+      std::optional<bool>, per_tile,
+      "One row per tile, for all of its slices; absent: a row per cell (bits_and_bins and bits_and_slice_ranges always "
+      "have tiles)");
   FIELD(std::optional<DumpRows>, rows, "One row per cell (per tile where lists are of tiles)");
   FIELD(std::optional<DumpField>, offset, "packed, runs: the first entry of a cell, in its row");
   FIELD(std::optional<std::string>, offset_is, About("Absent: entries").one_of({"entries", "bytes"}));
@@ -334,7 +342,8 @@ struct Dump {
               "reports are in metres; absent: 1",
               "m")
             .finite()
-            .above(0));
+            .at_least(1e-9)
+            .at_most(1e9));
   FIELD(std::optional<ByName<DumpBuffer>>, buffers, About("By name").each(""));
   FIELD(DumpCamera, camera, "Of the frame");
   FIELD(DumpGrid, grid, "What cells are");
