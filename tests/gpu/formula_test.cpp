@@ -75,11 +75,54 @@ TEST(Formulas, of_amounts_are_whole_numbers_that_can_be) {
   EXPECT_NE(refusal_of("lights / 7").find("a whole number from 0 to 2^53"), std::string::npos);
   EXPECT_NE(refusal_of("lights - 301").find("is -1 here"), std::string::npos);
   EXPECT_NE(refusal_of("cells * 1e300 * 1e300").find("is inf here"), std::string::npos);
-  EXPECT_NE(refusal_of("lights / 0").find("is inf here"), std::string::npos);
+  EXPECT_NE(refusal_of("lights / 0").find("divides by 0 at column 8"), std::string::npos);
   EXPECT_NE(refusal_of("far").find("is inf here"), std::string::npos);
   EXPECT_NE(refusal_of(-1).find("allowed: a whole number from 0, or a formula"), std::string::npos);
   EXPECT_NE(refusal_of(1.5).find("allowed: a whole number from 0, or a formula"), std::string::npos);
   EXPECT_NE(refusal_of(nullptr).find("allowed: a whole number from 0, or a formula"), std::string::npos);
+}
+
+std::string refusal_before_a_frame(const result::Json& given, std::uint64_t least = 0) {
+  try {
+    check_amount(given, {"cells"}, "/here", least);
+  } catch (const Error& error) {
+    return error.message();
+  }
+  return "";
+}
+
+TEST(Formulas, that_cannot_be_right_whatever_names_stand_for_are_refused_before_a_frame) {
+  const std::pair<const char*, const char*> all[] = {
+      {"1 / 0", "divides by 0 at column 3"},           {"cells % 0", "divides by 0 at column 7"},
+      {"cells / (4 - 4)", "divides by 0 at column 7"}, {"max(cells, 1 / min(0, 1))", "divides by 0"},
+      {"1e999", "beyond all numbers of 64 bits"},      {"1e300 * 1e300", "is inf; allowed: a finite number"},
+      {"8 / 3", "is 2.6666666666666665 here; allowed"}};
+  for (const auto& [formula, message] : all)
+    EXPECT_NE(refusal_before_a_frame(formula).find(message), std::string::npos) << refusal_before_a_frame(formula);
+  for (const char* formula : {"cells / (cells - cells)", "cells - 9", "cells / 7", "0"})
+    EXPECT_EQ(refusal_before_a_frame(formula), "") << formula;
+}
+
+TEST(Formulas, that_are_constant_are_known_before_a_frame) {
+  EXPECT_EQ(constant_amount("4 * 16"), 64u);
+  EXPECT_EQ(constant_amount(7u), 7u);
+  EXPECT_EQ(constant_amount("4 * cells"), std::nullopt);
+  EXPECT_EQ(constant_of_formula("1 / 4"), 0.25);
+}
+
+TEST(Formulas, of_amounts_say_the_least_that_is_allowed_as_number_and_as_formula) {
+  for (const result::Json& given : {result::Json(0u), result::Json("0"), result::Json("-4"), result::Json(-4)})
+    EXPECT_NE(refusal_before_a_frame(given, 1).find("allowed: a whole number from 1 to 2^53"), std::string::npos)
+        << refusal_before_a_frame(given, 1);
+}
+
+TEST(Formulas, that_are_long_are_shown_by_their_beginning) {
+  for (const std::string& formula :
+       {std::string(10000, '('), std::string(10000, 'a'), std::string(900, 'a') + " + 1"}) {
+    EXPECT_LT(refusal_before_a_frame(formula).size(), 300u);
+    EXPECT_NE(refusal_before_a_frame(formula).find("..."), std::string::npos);
+  }
+  EXPECT_EQ(shortened(std::string(79, 'a') + "\u00e9"), std::string(79, 'a') + "...");
 }
 
 TEST(Formulas, with_unknown_names_are_told_the_nearest_one) {

@@ -2,6 +2,7 @@
 
 #include "gpu/user_shaders/spirv_module.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "effort.h"
+#include "gpu/user_shaders/capability_names.h"
 #include "places.h"
 
 namespace clusterbench::gpu {
@@ -65,6 +67,28 @@ TEST(SpirvModules, tell_push_constants_and_what_can_be_specialized) {
   EXPECT_EQ(module.constants[0].type, "u32");
   EXPECT_EQ(module.arguments, std::vector<bool>(20, true));
   EXPECT_EQ(module.group_size(module.entries[0], {{0, 96}}), (std::array<std::uint32_t, 3>{96, 1, 1}));
+}
+
+TEST(SpirvModules, tell_the_types_of_the_numbers_in_their_blocks) {
+  const SpirvModule module = module_of(module_bytes("append"));
+  ASSERT_EQ(module.argument_numbers.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(module.argument_numbers[i].at, 4 * i);
+    EXPECT_EQ(module.argument_numbers[i].kind, 'u');
+    EXPECT_EQ(module.argument_numbers[i].bytes, 4u);
+  }
+  for (const ModuleBinding& binding : module.bindings) {
+    ASSERT_FALSE(binding.numbers.empty());
+    EXPECT_EQ(binding.numbers.front().kind, binding.binding < 3 ? 'f' : 'u') << binding.binding;
+  }
+}
+
+TEST(SpirvModules, name_the_capabilities_that_they_declare) {
+  EXPECT_EQ(capability_name(6033), "AtomicFloat32AddEXT");
+  EXPECT_EQ(capability_name(4472), "RayQueryKHR");
+  EXPECT_EQ(capability_name(99999), "number 99999");
+  EXPECT_TRUE(is_capability_asked_for(10));
+  EXPECT_FALSE(is_capability_asked_for(6033));
 }
 
 TEST(SpirvModules, that_are_none_are_refused_in_one_sentence) {

@@ -247,6 +247,22 @@ class Examples(unittest.TestCase):
             done = subprocess.run([PROGRAM, "validate", path], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2)
             self.assertIn("/passes/0/entry: is 'none'", done.stderr)
+            for change, message in (({"name": "aabb"}, "/name: is 'aabb', the name of another method"),
+                                    ({"shader_version": None}, "/shader_version: is missing"),
+                                    ({"parameters": [{"name": "n", "summary": "x", "default": 0.5, "min": 0, "max": 2}]}, "/parameters/0/default: is 0.5"),
+                                    ({"lights__rows__0__fields__1__at": 8}, "/lights/rows/0/fields/1/at: is 8: byte 8 is one of /lights/rows/0/fields/0, too"),
+                                    ({"passes__0__push__1__type": "f32"}, "/passes/0/push/1/type: is f32; byte 12 of the push constants of mine.spv is u32")):
+                path = folder.method(changed(METHOD, **change))
+                done = subprocess.run([PROGRAM, "validate", path], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 2, message)
+                self.assertIn(message, done.stderr)
+
+    def test_bits_that_a_module_casts_may_be_of_another_type(self):
+        source = LOOP.replace("uvec3 grid; uint lights; } frame;", "uvec3 grid; float lights; } told;\n#define frame Told(told.grid, floatBitsToUint(told.lights))\nstruct Told { uvec3 grid; uint lights; };")
+        with Folder() as folder:
+            result, done = folder.run(configuration(), "--shader", folder.method(METHOD, source=source), "--no-timing")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(case_of(result, "mine")["error"]["false_negatives"], 0)
 
     def test_slices_of_its_own_skip_other_grids_before_the_run(self):
         with Folder() as folder:
@@ -334,7 +350,7 @@ class Faults(unittest.TestCase):
             ({"lists__0__rows__stride": 0}, "/lists/0/rows/stride: is 0; allowed: at least 1"),
             ({"lists__0__entries__at": 8}, "/lists/0/entries/at: is 8: 199 entries there end beyond the stride of 800"),
             ({"lists__0__rows__at": 4096, "buffers__lists__bytes": 4096}, "/lists/0/rows/at: is 4096; buffer 'lists' has 4096 bytes"),
-            ({"buffers__lists__bytes": 0}, "/buffers/lists/bytes: is 0; allowed: at least 1"),
+            ({"buffers__lists__bytes": 0}, r"/buffers/lists/bytes: is 0; allowed: a whole number from 1"),
             ({"buffers__lists": {"bytes": 8, "values": [{"at": 0, "type": "f32", "is": "eye"}]}}, "/buffers/lists/values/0/at: is 0: its 12 bytes end beyond the 8"),
             ({"buffers__lists": {"bytes": 16, "values": [{"at": 8, "type": "u32", "is": "lights"}, {"at": 0, "type": "f32", "is": "eye"}]}},
              "/buffers/lists/values/1/at: is 0: byte 8 is one of /buffers/lists/values/0, too"),
@@ -343,7 +359,7 @@ class Faults(unittest.TestCase):
             ({"passes__0__push__1": None}, "/passes/0/push: say nothing of byte 12, which the push constants of mine.spv have"),
             ({"lists__0__peer_cell": 1}, r"/lists/0/peer_cell: is not known \(did you mean 'per_cell'\?\); allowed: set, layout"),
             ({"parameters": [{"name": "cells", "summary": "x", "default": 1, "min": 1, "max": 2}]}, "which is a known value or another parameter"),
-            ({"parameters": [{"name": "n", "summary": "x", "default": 3, "min": 1, "max": 2}]}, "/parameters/0/default: is 3; allowed: from min to max, here 1 to 2"),
+            ({"parameters": [{"name": "n", "summary": "x", "default": 3, "min": 1, "max": 2}]}, "/parameters/0/default: is 3; allowed: whole numbers from min to max, here 1 to 2"),
         ):
             with self.subTest(message):
                 self.refused(changed(METHOD, **change), message)
@@ -380,7 +396,7 @@ class Faults(unittest.TestCase):
         image = LOOP.replace("void main() {", "layout(set = 0, binding = 3, r32f) uniform image2D picture;\nvoid main() { imageStore(picture, ivec2(0), vec4(1));")
         self.refused(METHOD, r"has set 0, binding 3 \('picture'\), which is no buffer", source=image)
         arrays = LOOP.replace("buffer Lists { uint lists[]; };", "buffer Lists { uint lists[]; } many[2];").replace("BODY", "many[cell % 2].lists[cell] = 0;")
-        self.refused(METHOD, "which is no buffer", source=arrays)
+        self.refused(METHOD, "which is an array; methods have", source=arrays)
         with Folder() as folder:
             path = folder.method(METHOD)
             with open(f"{folder.path}/f.frag", "w") as file:
@@ -409,7 +425,7 @@ class Faults(unittest.TestCase):
                    source=LOOP.replace("local_size_x = 64", "local_size_x_id = 5"))
         more = copy.deepcopy(METHOD)
         more["passes"][0]["push"] += [{"at": 16 + 4 * i, "type": "u32", "is": "lights"} for i in range(100)]
-        self.ended(more, "lacks, the capability|push constants", source=LOOP.replace("uint lights; }", "uint lights; uint more[100]; }"))
+        self.ended(more, "capability|push constants", source=LOOP.replace("uint lights; }", "uint lights; uint more[100]; }"))
         shared = LOOP.replace("void main() {", "shared uint much[1 << 20];\nvoid main() { much[gl_LocalInvocationIndex] = 1;")
         self.ended(METHOD, "has .* bytes for a group to share; mine.spv takes 4194304", source=shared)
 
@@ -419,6 +435,8 @@ class Faults(unittest.TestCase):
             ({"passes__0__invocations": ["cells / 7"]}, "allowed: a whole number"),
             ({"buffers__lists__bytes": "-cells"}, r"/buffers/lists/bytes: '-cells' is -\d+ here; allowed: a whole number"),
             ({"buffers__lists__bytes": "cells - cells"}, "/lists/0/rows.*do not fit into buffer 'lists' of 0 bytes"),
+            ({"buffers__lights": {"bytes": "64 + lights * 16", "values": [{"at": "columns + 20", "type": "f32", "is": "near"}]}}, "/buffers/lights/values/0/at: is 30: byte 30 is one of /lights/rows/0/fields/\\d, too"),
+            ({"buffers__boundaries__values__0__is": "(1 + cells) * 1e300"}, r"/buffers/boundaries/values/0/is: is .*e\+30\d here, which no f32 is"),
             ({"buffers__lights__bytes": 64}, "/lights/rows/0: take .* bytes for .* lights; buffer 'lights' has 64"),
             ({"buffers__boundaries__bytes": 64}, "/buffers/boundaries/values/.*/at: is .* end beyond the 64 that there are"),
             ({"buffers__boundaries__values__1__at": "4 * columns"}, r"/buffers/boundaries/values/1/at: is \d+: byte \d+ is one of /buffers/boundaries/values/0, too"),

@@ -10,7 +10,9 @@
 #include "assign/settings.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "gpu/device/device.h"
 #include "gpu/device_test.h"
+#include "gpu/user_shaders/capability_names.h"
 #include "gpu/user_shaders/known_values.h"
 #include "places.h"
 #include "result/documents/shader.h"
@@ -227,8 +229,8 @@ std::string refusal_of_append(const std::vector<std::pair<const char*, const cha
 }
 
 TEST(UserShaders, may_have_formulas_of_lists_that_only_numbers_of_a_frame_make_right) {
-  for (const char* formula : {R"("per_cell / 4")", R"("per_cell - 1")", R"("viewport_width / 15")",
-                              R"("(columns - 2) * 4")", R"("near / 0")"}) {
+  for (const char* formula :
+       {R"("per_cell / 4")", R"("per_cell - 1")", R"("viewport_width / 15")", R"("(columns - 2) * 4")"}) {
     EXPECT_EQ(refusal_of_append({{"/lists/0/rows/at", formula}}), "") << formula;
     EXPECT_EQ(refusal_of_append({{"/lists/0/lights", formula}}), "") << formula;
   }
@@ -248,9 +250,10 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
       {{{"/lists/0/rows/stride", "0"}}, "/lists/0/rows/stride: is 0; allowed: at least 1"},
       {{{"/buffers/indices/bytes", "64"}, {"/lists/0/entries/at", "64"}},
        "/lists/0/entries/at: is 64; buffer 'indices' has 64 bytes"},
-      {{{"/buffers/indices/bytes", "0"}}, "/buffers/indices/bytes: is 0; allowed: at least 1, or a formula"},
-      {{{"/passes/0/groups/0", "0"}}, "/passes/0/groups/0: is 0, and nothing would run; allowed: at least 1"},
-      {{{"/passes/0/groups/0", R"("4 - 4")"}}, "/passes/0/groups/0: is 0, and nothing would run"},
+      {{{"/buffers/indices/bytes", "0"}},
+       "/buffers/indices/bytes: is 0; allowed: a whole number from 1 to 2^53, or a formula"},
+      {{{"/passes/0/groups/0", "0"}}, "/passes/0/groups/0: is 0; allowed: a whole number from 1"},
+      {{{"/passes/0/groups/0", R"("4 - 4")"}}, "/passes/0/groups/0: '4 - 4' is 0 here; allowed: a whole number from 1"},
       {{{"/buffers/indices/bytes", R"("4 - 8")"}},
        "/buffers/indices/bytes: '4 - 8' is -4 here; allowed: a whole number"},
       {{{"/lists/0/rows/at", R"("8 / 3")"}}, "/lists/0/rows/at: '8 / 3' is 2.6"},
@@ -260,12 +263,56 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
        "/passes/0/push: say nothing of byte 12, which the push constants of append.spv have"},
       {{{"/passes/0/constants/0/type", R"("f32")"}},
        "/passes/0/constants/0/type: is f32; constant 0 of append.spv is u32"},
-      {{{"/parameters/0/default", "5000"}}, "/parameters/0/default: is 5000; allowed: from min to max, here 1 to 4096"},
+      {{{"/parameters/0/default", "5000"}},
+       "/parameters/0/default: is 5000; allowed: whole numbers from min to max, here 1 to 4096"},
+      {{{"/lights/rows/0/fields/0/at", "0"}, {"/lights/rows/0/fields/1", R"({"at": 8, "type": "f32", "is": "range"})"}},
+       "/lights/rows/0/fields/1/at: is 8: byte 8 is one of /lights/rows/0/fields/0, too"},
+      {{{"/lights/rows/1/buffer", R"("positions")"}, {"/lights/rows/1/at", "8"}},
+       "/lights/rows/1/fields/0/at: is 0: byte 8 is one of /lights/rows/0/fields/0, too"},
+      {{{"/buffers/positions/values", R"([{"at": "2 * 2", "type": "u32", "is": "lights"}])"}},
+       "/buffers/positions/values/0/at: is 4: byte 4 is one of /lights/rows/0/fields/0, too"},
+      {{{"/buffers/positions/bytes", "8"}},
+       "/lights/rows/0: take 12 bytes for the first light; buffer 'positions' has 8"},
+      {{{"/parameters/0/default", "0.5"}, {"/parameters/0/min", "0"}},
+       "/parameters/0/default: is 0.5; allowed: whole numbers from min to max, here 0 to 4096"},
+      {{{"/parameters/0/min", "0.5"}}, "/parameters/0/min: is 0.5; allowed: a whole number"},
+      {{{"/buffers/boundaries/values/0/at", "0"}, {"/buffers/boundaries/values/1/at", "4"}},
+       "/buffers/boundaries/values/1/at: is 4: byte 4 is one of /buffers/boundaries/values/0, too"},
+      {{{"/passes/0/push/3", R"({"at": 20, "type": "f32", "is": "slice_boundaries"})"}},
+       "/passes/0/push/3/at: is 20: its first 8 bytes end beyond the 20 that there are"},
+      {{{"/passes/0/constants/0/is", R"("1 / 0")"}}, "/passes/0/constants/0/is: '1 / 0' divides by 0"},
+      {{{"/passes/0/constants/0/is", R"("-1")"}}, "/passes/0/constants/0/is: is -1 here, which no u32 is"},
+      {{{"/passes/0/constants/0/is", R"("0")"}}, "/passes/0/module: append.spv has groups of 0 invocations"},
+      {{{"/buffers/boundaries/values/0/is", R"("1e300")"}},
+       "/values/0/is: is 1.0000000000000001e+300 here, which no f32"},
+      {{{"/buffers/boundaries/values/0/is", R"("1e6")"}, {"/buffers/boundaries/values/0/type", R"("f16")"}},
+       "/values/0/is: is 1000000 here, which no f16 is"},
+      {{{"/passes/0/push/1/type", R"("f32")"}},
+       "/passes/0/push/1/type: is f32; byte 12 of the push constants of append.spv is u32"},
+      {{{"/buffers/boundaries/values/0/type", R"("u32")"}},
+       "/buffers/boundaries/values/0/type: is u32; byte 0 of set 0"},
+      {{{"/lights/rows/0/fields/0/type", R"("u32")"}},
+       "/lights/rows/0/fields/0/type: is u32; byte 0 of set 0, binding 0"},
       {{{"/bufers", "{}"}}, "/bufers: is not known (did you mean 'buffers'?); allowed: shader_version, name"}};
   EXPECT_EQ(refusal_of_append({}), "");
   for (const auto& [changes, message] : rows)
     EXPECT_NE(refusal_of_append(changes).find(message), std::string::npos)
         << refusal_of_append(changes) << "\nnot: " << message;
+}
+
+TEST_F(DeviceUserShaders, lack_a_capability_or_have_one_that_no_device_is_asked_for) {
+  for (const std::uint32_t capability : device().facts().capabilities)
+    EXPECT_TRUE(is_capability_asked_for(capability)) << capability;
+}
+
+TEST(UserShaders, of_the_name_of_a_method_of_ours_are_refused_and_those_of_another_shader_are_not) {
+  ShaderFile file;
+  file.record.name = "aabb";
+  EXPECT_THROW(check_shader_name(file), Error);
+  shader_of("append");
+  file.record.name = "append";
+  EXPECT_NO_THROW(check_shader_name(file));
+  remove_shader_methods();
 }
 
 TEST_F(DeviceUserShaders, are_registered_once_and_by_names_of_their_own) {

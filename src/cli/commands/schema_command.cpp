@@ -18,6 +18,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "gpu/user_shaders/shader_obstacles.h"
 #include "report/documents/result_file.h"
 #include "report/history/history.h"
@@ -53,6 +54,7 @@ ExitCode validate_config(const std::string& path) {
 // With its modules, and held against the device that is there.
 ExitCode validate_shader(const std::string& path) {
   const gpu::ShaderFile file = gpu::read_shader_file(path);
+  gpu::check_shader_name(file);
   const std::string obstacle = gpu::shader_obstacle(file);
   std::cout << path << ": valid, method '" << file.record.name << "' with " << std::to_string(file.record.passes.size())
             << (file.record.passes.size() == 1 ? " pass, " : " passes, ")

@@ -10,16 +10,18 @@
 namespace clusterbench::gpu {
 namespace {
 
+[[noreturn]] void refuse_number(const std::string& type, double value, const std::string& where) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  throw Error("", where, std::string("is ") + text + " here, which no " + type + " is");
+}
+
 // Bits of a whole number in two's complement.
 std::uint64_t whole_bits(const std::string& type, double value, const std::string& where) {
   const bool is_signed = type.front() == 'i';
   const int bits = static_cast<int>(8 * bytes_of_number(type));
   const double end = std::ldexp(1.0, is_signed ? bits - 1 : bits), begin = is_signed ? -end : 0.0;
-  if (!(value >= begin && value < end) || std::floor(value) != value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    throw Error("", where, std::string("is ") + text + " here, which no " + type + " is");
-  }
+  if (!(value >= begin && value < end) || std::floor(value) != value) refuse_number(type, value, where);
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
 }
 
@@ -29,7 +31,19 @@ std::uint64_t bytes_of_number(const std::string& type) {
   return std::stoull(type.substr(1)) / 8;
 }
 
+void check_number(const std::string& type, double value, const std::string& where) {
+  constexpr float k_f16_end = 65520.0f;  // what rounds to infinity begins there
+  if (type.front() != 'f') {
+    whole_bits(type, value, where);
+    return;
+  }
+  if (type == "f64" || !std::isfinite(value)) return;
+  const float rounded = std::abs(static_cast<float>(value));
+  if (!std::isfinite(rounded) || (type == "f16" && rounded >= k_f16_end)) refuse_number(type, value, where);
+}
+
 void write_number(std::byte* to, const std::string& type, double value, const std::string& where) {
+  check_number(type, value, where);
   std::uint64_t bits = 0;
   if (type == "f64")
     bits = std::bit_cast<std::uint64_t>(value);

@@ -11,8 +11,10 @@ namespace clusterbench::gpu {
 
 // `type`: a name that the schema allows (u8 .. f64).
 std::uint64_t bytes_of_number(const std::string& type);
-// Single and half precision round to nearest. Throws Error ("", `where`) for a value that a whole type does not have;
-// writes what fits into a float otherwise, infinity included.
+// Throws Error ("", `where`) for a value that the type does not have: of a whole type any but its own, of a float a
+// finite one beyond its greatest. Infinity is one (the far plane of a camera without one).
+void check_number(const std::string& type, double value, const std::string& where);
+// Single and half precision round to nearest. Throws as check_number() does.
 void write_number(std::byte* to, const std::string& type, double value, const std::string& where);
 
 // Bytes that grow as they are written, all others 0.

@@ -36,7 +36,15 @@ ShaderFile make_shader_file(const std::filesystem::path& path, std::string_view 
 // The files that it names, itself first.
 std::vector<std::string> files_of_shader(const std::filesystem::path& path);
 
-// A part of `lists`, whose formulas are replaced by their numbers. Throws Error ("", `where`).
+// A part of `lists` where `number` takes the place of each formula that stands for a whole number.
+using ReplaceFormula = std::function<result::Json(const result::Json& formula, const std::string& where)>;
+result::Json lists_part_with(const result::Json& part, const ReplaceFormula& number, const std::string& where);
+// Of one without formulas. Throws Error ("", `where`).
+result::DumpLists read_lists_part(const result::Json& part, const std::string& where);
+// Both, with the numbers of a frame.
 result::DumpLists lists_of(const result::Json& part, const NumberOf& number, const std::string& where);
+
+// The bits of a specialization constant. Throws Error ("", `where`) for a value that its type does not have.
+std::uint32_t word_of_constant(const result::ShaderConstant& constant, double value, const std::string& where);
 
 }  // namespace clusterbench::gpu

@@ -179,22 +179,38 @@ class ShaderAssigner final : public assign::StructureAssigner {
     return std::max(whole_words(bytes_[buffer]), k_least);
   }
 
+  using Places = std::vector<std::optional<ValuePlace>>;
+
   void prepare_images(const FrameValues& values, const view::LightArrays& lights) {
+    std::vector<Places> places(images_.size());
     for (std::size_t i = 0; i < images_.size(); ++i) {
       images_[i].clear();
       const auto& [name, buffer] = record().buffers[i];
-      if (buffer.values) write_values(*buffer.values, values, bytes_[i], "/buffers/" + name + "/values", images_[i]);
+      if (buffer.values)
+        places[i] = write_values(*buffer.values, values, bytes_[i], "/buffers/" + name + "/values", images_[i]);
     }
+    check_light_places(places, lights.boxes.first);
     for (std::size_t i = 0; i < record().lights.rows.size(); ++i) {
       const result::ShaderLightRows& rows = record().lights.rows[i];
       write_lights(record(), rows, lights, images_[file_->buffer_index(rows.buffer)],
                    "/lights/rows/" + std::to_string(i));
     }
   }
+  // Lights that share bytes with values, or with other rows of their buffer.
+  void check_light_places(const std::vector<Places>& values, std::uint64_t lights) const {
+    const std::vector<result::ShaderLightRows>& all = record().lights.rows;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const LightPlaces rows = places_of_lights(all[i], lights, "/lights/rows/" + std::to_string(i));
+      check_apart(values[file_->buffer_index(all[i].buffer)], "/buffers/" + all[i].buffer + "/values", rows);
+      for (std::size_t j = 0; j < i; ++j)
+        if (all[j].buffer == all[i].buffer)
+          check_apart(places_of_lights(all[j], lights, "/lights/rows/" + std::to_string(j)), rows);
+    }
+  }
   // `room`: bytes that there are.
-  static void write_values(const std::vector<result::ShaderValue>& all, const FrameValues& values, std::uint64_t room,
-                           const std::string& pointer, ByteImage& out) {
-    std::vector<std::optional<ValuePlace>> places;
+  static Places write_values(const std::vector<result::ShaderValue>& all, const FrameValues& values, std::uint64_t room,
+                             const std::string& pointer, ByteImage& out) {
+    Places places;
     std::vector<std::vector<double>> numbers;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::string where = pointer + "/" + std::to_string(i);
@@ -204,7 +220,9 @@ class ShaderAssigner final : public assign::StructureAssigner {
     }
     check_overlaps(places, pointer);
     for (std::size_t i = 0; i < all.size(); ++i)
-      out.write(places[i]->at, all[i].type, all[i].step.value_or(0), numbers[i], pointer + "/" + std::to_string(i));
+      out.write(places[i]->at, all[i].type, all[i].step.value_or(0), numbers[i],
+                pointer + "/" + std::to_string(i) + "/is");
+    return places;
   }
 
   // --- Passes ---
@@ -217,10 +235,7 @@ class ShaderAssigner final : public assign::StructureAssigner {
     for (std::size_t i = 0; i < pass.constants->size(); ++i) {
       const result::ShaderConstant& one = (*pass.constants)[i];
       const std::string at = where + "/constants/" + std::to_string(i) + "/is";
-      const std::string type = one.type.value_or("u32");
-      std::array<std::byte, 4> word{};
-      write_number(word.data(), type == "bool" ? "u32" : type, number_of_formula(one.is, values.number(), at), at);
-      out.emplace_back(one.id, std::bit_cast<std::uint32_t>(word));
+      out.emplace_back(one.id, word_of_constant(one, number_of_formula(one.is, values.number(), at), at));
     }
     return out;
   }
@@ -510,7 +525,19 @@ std::deque<Added>& added_methods() {
   return all;
 }
 
+[[noreturn]] void refuse_name(const ShaderFile& file) {
+  throw Error(file.path.string(), "/name",
+              "is '" + file.record.name + "', the name of another method; choose one of your own");
+}
+
 }  // namespace
+
+void check_shader_name(const ShaderFile& file) {
+  const assign::AssignerDescriptor* found = assign::find_assigner(file.record.name);
+  const bool is_of_shader =
+      std::ranges::any_of(added_methods(), [&](const Added& one) { return &one.registration->descriptor() == found; });
+  if (found != nullptr && !is_of_shader) refuse_name(file);
+}
 
 assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>& file) {
   const result::ShaderMethod& method = file->record;
@@ -543,9 +570,7 @@ const assign::AssignerDescriptor& add_shader_method(const std::filesystem::path&
   if (const auto found = std::ranges::find(all, whole, &Added::path); found != all.end())
     return found->registration->descriptor();
   auto file = std::make_shared<const ShaderFile>(read_shader_file(path));
-  if (assign::find_assigner(file->record.name) != nullptr)
-    throw Error(path.string(), "/name",
-                "is '" + file->record.name + "', the name of another method; choose one of your own");
+  if (assign::find_assigner(file->record.name) != nullptr) refuse_name(*file);
   use_robust_buffers();
   all.push_back({whole, std::make_unique<assign::AssignerRegistration>(descriptor_of(file))});
   return all.back().registration->descriptor();

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "gpu/device/device.h"
+#include "gpu/user_shaders/capability_names.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -13,8 +14,10 @@ namespace {
 std::string module_obstacle(const DeviceFacts& facts, const SpirvModule& module, const std::string& name) {
   for (const std::uint32_t capability : module.capabilities)
     if (!std::ranges::binary_search(facts.capabilities, capability))
-      return facts.name + " is not asked for, or lacks, the capability " + capability_name(capability) + " that " +
-             name + " declares";
+      return is_capability_asked_for(capability)
+                 ? facts.name + " lacks the capability " + capability_name(capability) + " that " + name + " declares"
+                 : name + " declares the capability " + capability_name(capability) +
+                       ", which clusterbench asks no device for";
   if (module.argument_bytes > facts.max_argument_bytes)
     return facts.name + " takes " + number_of(facts.max_argument_bytes, "byte") + " of push constants; " + name +
            " has " + std::to_string(module.argument_bytes);

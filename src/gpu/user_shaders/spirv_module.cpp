@@ -41,6 +41,7 @@ struct Op {
     variable = 59,
     decorate = 71,
     member_decorate = 72,
+    bitcast = 124,
     execution_mode_id = 331
   };
 };
@@ -61,45 +62,6 @@ constexpr std::uint32_t k_compute = 5, k_local_size = 17, k_local_size_id = 38, 
 struct Storage {
   enum : std::uint32_t { uniform_constant = 0, uniform = 2, workgroup = 4, push_constant = 9, storage_buffer = 12 };
 };
-
-struct Capability {
-  std::uint32_t number;
-  const char* name;
-};
-constexpr Capability k_capabilities[] = {{0, "Matrix"},
-                                         {1, "Shader"},
-                                         {9, "Float16"},
-                                         {10, "Float64"},
-                                         {11, "Int64"},
-                                         {12, "Int64Atomics"},
-                                         {22, "Int16"},
-                                         {28, "UniformBufferArrayDynamicIndexing"},
-                                         {30, "StorageBufferArrayDynamicIndexing"},
-                                         {39, "Int8"},
-                                         {50, "ImageQuery"},
-                                         {61, "GroupNonUniform"},
-                                         {62, "GroupNonUniformVote"},
-                                         {63, "GroupNonUniformArithmetic"},
-                                         {64, "GroupNonUniformBallot"},
-                                         {65, "GroupNonUniformShuffle"},
-                                         {66, "GroupNonUniformShuffleRelative"},
-                                         {67, "GroupNonUniformClustered"},
-                                         {68, "GroupNonUniformQuad"},
-                                         {4433, "StorageBuffer16BitAccess"},
-                                         {4434, "UniformAndStorageBuffer16BitAccess"},
-                                         {4435, "StoragePushConstant16"},
-                                         {4448, "StorageBuffer8BitAccess"},
-                                         {4449, "UniformAndStorageBuffer8BitAccess"},
-                                         {4450, "StoragePushConstant8"},
-                                         {4464, "DenormPreserve"},
-                                         {4465, "DenormFlushToZero"},
-                                         {4466, "SignedZeroInfNanPreserve"},
-                                         {4467, "RoundingModeRTE"},
-                                         {4468, "RoundingModeRTZ"},
-                                         {5055, "ShaderClockKHR"},
-                                         {5345, "VulkanMemoryModel"},
-                                         {5346, "VulkanMemoryModelDeviceScope"},
-                                         {5347, "PhysicalStorageBufferAddresses"}};
 
 struct TypeOf {
   std::uint32_t op = 0;
@@ -139,6 +101,7 @@ class ModuleReader {
       case Op::spec_constant:
       case Op::type_vector:
       case Op::type_matrix:
+      case Op::bitcast:
         return 3;
       case Op::execution_mode:
       case Op::execution_mode_id:
@@ -195,6 +158,9 @@ class ModuleReader {
       case Op::spec_constant_true:
       case Op::spec_constant_false:
         if (op != Op::constant) specialized_.push_back({operands[1], operands[0], operands.size() <= 3});
+        return;
+      case Op::bitcast:
+        (number_kind(operands[0]) == 'f' ? out_.casts_to_float : out_.casts_to_whole) = true;
         return;
       case Op::constant_composite:
       case Op::spec_constant_composite:
@@ -351,24 +317,50 @@ class ModuleReader {
     return of->op != Op::type_int || of->operands.size() < 2 ? "" : of->operands[1] == 0 ? "u32" : "i32";
   }
 
-  // Marks the bytes of a type's numbers from `at` on, as far as `marks` goes; `steps` ends what would go on for ever.
-  void mark_bytes(std::uint32_t id, std::uint64_t at, std::uint64_t matrix_step, std::vector<bool>& marks, int& steps) {
+  // f, i, u of a number or a vector of numbers; ' ' of other types.
+  char number_kind(std::uint32_t id) const {
     const TypeOf* of = type(id);
-    if (of == nullptr || of->operands.empty() || at >= marks.size() || --steps < 0) return;
+    if (of != nullptr && of->op == Op::type_vector) of = type(of->operands[0]);
+    if (of == nullptr) return ' ';
+    if (of->op == Op::type_float) return 'f';
+    return of->op != Op::type_int || of->operands.size() < 2 ? ' ' : of->operands[1] == 0 ? 'u' : 'i';
+  }
+
+  // Finds the numbers of a block of this type from `at` on that begin before `end`. `steps_` and `depth` end what would
+  // go on for ever.
+  struct Found {
+    std::vector<BlockNumber>& numbers;
+    std::uint64_t end;
+  };
+  void find_numbers(std::uint32_t id, std::uint64_t at, std::uint64_t matrix_step, Found& found, int depth = 0) {
+    constexpr int k_deepest_block = 32;
+    const TypeOf* of = type(id);
+    if (of == nullptr || of->operands.empty() || at >= found.end || --steps_ < 0 || depth > k_deepest_block) return;
+    const bool is_array = of->op == Op::type_array || of->op == Op::type_runtime_array;
     if (of->op == Op::type_struct) {
-      for (std::uint32_t i = 0; i < of->operands.size(); ++i)
-        mark_bytes(of->operands[i], at + member_decoration(id, i, Decoration::offset),
-                   member_decoration(id, i, Decoration::matrix_stride), marks, steps);
-    } else if (of->op == Op::type_array || (of->op == Op::type_matrix && matrix_step > 0)) {
-      const bool is_array = of->op == Op::type_array;
-      const std::uint64_t step = is_array ? decoration(id, Decoration::array_stride).value_or(0) : matrix_step,
-                          count = is_array ? number(of->operands[1]) : of->operands[1];
-      for (std::uint64_t i = 0; i < count && (i == 0 || step > 0) && at + i * step < marks.size() && steps > 0; ++i)
-        mark_bytes(of->operands[0], at + i * step, matrix_step, marks, steps);
-    } else {
-      const std::uint64_t end = std::min<std::uint64_t>(at + bytes_of(id), marks.size());
-      for (std::uint64_t i = at; i < end; ++i) marks[i] = true;
+      for (std::uint32_t i = 0; i < of->operands.size() && steps_ > 0; ++i)
+        find_numbers(of->operands[i], at + member_decoration(id, i, Decoration::offset),
+                     member_decoration(id, i, Decoration::matrix_stride), found, depth + 1);
+    } else if (is_array || of->op == Op::type_matrix || of->op == Op::type_vector) {
+      const std::uint64_t step = is_array                                       ? stride_of_array(id)
+                                 : of->op == Op::type_matrix && matrix_step > 0 ? matrix_step
+                                                                                : bytes_of(of->operands[0]);
+      const std::uint64_t count = of->op == Op::type_runtime_array ? found.end
+                                  : is_array                       ? number(of->operands[1])
+                                                                   : of->operands[1];
+      for (std::uint64_t i = 0; i < count && (i == 0 || step > 0) && at + i * step < found.end && steps_ > 0; ++i)
+        find_numbers(of->operands[0], at + i * step, matrix_step, found, depth + 1);
+    } else if (const char kind = number_kind(id); kind != ' ') {
+      found.numbers.push_back({at, kind, of->operands[0] / 8});
     }
+  }
+  std::uint64_t stride_of_array(std::uint32_t id) const { return decoration(id, Decoration::array_stride).value_or(0); }
+  std::vector<BlockNumber> numbers_of(std::uint32_t block, std::uint64_t end) {
+    std::vector<BlockNumber> all;
+    Found found{all, end};
+    find_numbers(block, 0, 0, found);
+    std::ranges::sort(all, {}, &BlockNumber::at);
+    return all;
   }
   std::uint32_t member_decoration(std::uint32_t id, std::uint32_t member, std::uint32_t which) const {
     const auto of = members_.find(id);
@@ -378,15 +370,17 @@ class ModuleReader {
     const auto found = at->second.find(which);
     return found == at->second.end() ? 0 : found->second;
   }
+  static constexpr std::uint64_t k_most_looked_at = 4096;
   void add_arguments(std::uint32_t pointed) {
-    constexpr std::uint64_t k_most = 4096;
-    constexpr int k_most_steps = 5000;  // also of depth
     const bool is_first = out_.argument_bytes == 0 && !has_arguments_;
     has_arguments_ = true;
     out_.argument_bytes = std::max(out_.argument_bytes, bytes_of(pointed));
-    out_.arguments.assign(is_first ? std::min(out_.argument_bytes, k_most) : 0, false);
-    int steps = k_most_steps;
-    mark_bytes(pointed, 0, 0, out_.arguments, steps);
+    out_.arguments.assign(is_first ? std::min(out_.argument_bytes, k_most_looked_at) : 0, false);
+    out_.argument_numbers = numbers_of(pointed, out_.arguments.size());
+    for (const BlockNumber& one : out_.argument_numbers) {
+      const std::uint64_t end = std::min<std::uint64_t>(one.at + one.bytes, out_.arguments.size());
+      for (std::uint64_t i = one.at; i < end; ++i) out_.arguments[i] = true;
+    }
   }
 
   struct Variable {
@@ -418,6 +412,7 @@ class ModuleReader {
     else if (one.storage == Storage::uniform && decoration(pointed, Decoration::block))
       found.kind = ModuleBinding::Kind::uniform;
     found.bytes = bytes_of(pointed);
+    found.numbers = numbers_of(pointed, k_most_looked_at);
     const auto named = names_.find(one.id), type_named = names_.find(pointed);
     if (named != names_.end()) found.name = named->second;
     if (found.name.empty() && type_named != names_.end()) found.name = type_named->second;
@@ -438,6 +433,7 @@ class ModuleReader {
   };
   std::vector<Specialized> specialized_;
   bool has_arguments_ = false;
+  int steps_ = 200000;  // of find_numbers()
   std::vector<Variable> variables_;
   Sizes sizes_, dense_sizes_;
 };
@@ -499,11 +495,6 @@ std::optional<std::array<std::uint32_t, 3>> SpirvModule::group_size(
     if (const auto set = given.find(*found->second.specialized_as); set != given.end()) out[i] = set->second;
   }
   return out;
-}
-
-std::string capability_name(std::uint32_t capability) {
-  const auto* found = std::ranges::find(k_capabilities, capability, &Capability::number);
-  return found == std::end(k_capabilities) ? "number " + std::to_string(capability) : found->name;
 }
 
 }  // namespace clusterbench::gpu

@@ -12,13 +12,21 @@
 
 namespace clusterbench::gpu {
 
+// A number of a block, as its module declares it.
+struct BlockNumber {
+  std::uint64_t at = 0;
+  char kind = 'u';  // f, i, u
+  std::uint32_t bytes = 4;
+};
+
 struct ModuleBinding {
   enum class Kind : std::uint8_t { storage, uniform, other };
   std::uint32_t set = 0, binding = 0;
   Kind kind = Kind::other;
-  std::string name;         // as the compiler left it; may be ""
-  std::uint64_t bytes = 0;  // at least so many are read; of an array without an end its first element counts
-  bool is_array = false;    // of buffers
+  std::string name;                    // as the compiler left it; may be ""
+  std::uint64_t bytes = 0;             // at least so many are read; of an array without an end its first element counts
+  bool is_array = false;               // of buffers
+  std::vector<BlockNumber> numbers{};  // of the first 4096 bytes, ascending
 };
 
 struct ModuleConstant {
@@ -44,6 +52,9 @@ struct SpirvModule {
   std::uint64_t argument_bytes = 0;  // of push constants
   // The bytes of push constants that are members, not gaps; none where entries have blocks of their own.
   std::vector<bool> arguments;
+  std::vector<BlockNumber> argument_numbers;  // ascending; none where `arguments` are none
+  // Does it take bits of other numbers for floats, for whole ones?
+  bool casts_to_float = false, casts_to_whole = false;
   std::uint64_t shared_bytes = 0;  // of a group, with the module's own constants
 
   // Of an entry, with constants by id in place of the module's own; nullopt where a size is computed.
@@ -60,8 +71,5 @@ struct SpirvModule {
 // Throws Error (file, byte) with one sentence for bytes that are no such module, or, where the build has SPIRV-Tools,
 // that break its rules.
 SpirvModule read_module(std::span<const std::byte> bytes, const std::string& file);
-
-// The name of a capability; its number where it has none here.
-std::string capability_name(std::uint32_t capability);
 
 }  // namespace clusterbench::gpu
