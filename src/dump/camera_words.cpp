@@ -73,7 +73,7 @@ void transpose_alone(Alone alone, CameraWords& out) {
 // The given one first.
 std::vector<std::string> values(const std::optional<std::string>& given, std::vector<std::string> allowed) {
   const std::string first = given.value_or(allowed.front());
-  std::ranges::stable_partition(allowed, [&](const std::string& value) { return value == first; });
+  std::stable_partition(allowed.begin(), allowed.end(), [&](const std::string& value) { return value == first; });
   return allowed;
 }
 
@@ -129,7 +129,7 @@ Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space) {
     std::vector<CameraWords> others = other_camera_words(camera, lights_in_view_space);
     if (others.empty()) throw;
     // First those that need no near_m and far_m: with a given far plane nearly any near plane makes a camera.
-    std::ranges::stable_partition(others, [&](const CameraWords& words) {
+    std::stable_partition(others.begin(), others.end(), [&](const CameraWords& words) {
       result::DumpCamera own = words.camera;
       if (own.projection) own.near_m.reset(), own.far_m.reset();
       return camera_if_any(own, lights_in_view_space).has_value();

@@ -250,7 +250,9 @@ grid::Grid grid_of(const result::DumpGrid& given, const view::Frame& frame) {
       count_rows_from_bottom(std::get<grid::ScreenGrid>(grid.shape), spec.tiles, frame);
     return grid;
   } catch (const Error& error) {  // names keys of a configuration, "slices.near"
-    throw Error("", place_in_dump(error.where(), given), words_in_dump(error.message()), error.code());
+    const bool counts_tiles = error.where() == "cells" && given.tiles;
+    throw Error("", place_in_dump(error.where(), given),
+                (counts_tiles ? "its cells " : "") + words_in_dump(error.message()), error.code());
   }
 }
 

@@ -162,7 +162,7 @@ TEST(Check, what_is_bad_in_a_dump_is_one_line_with_file_and_place) {
          s.dump["viewport"] = {65536, 65536};
          s.dump["grid"]["tiles"]["count"] = {65536, 65536};
        },
-       "dump.json: /grid/cells: are more than 10^9"},
+       "dump.json: /grid: its cells are more than 10^9: 65536x65536x2"},
       {[](Small& s) {
          s.dump["grid"]["tiles"]["count"] = {64, 64};
        },

@@ -18,6 +18,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "dump/dump_file.h"
 #include "gpu/user_shaders/shader_method.h"
 #include "gpu/user_shaders/shader_obstacles.h"
 #include "report/documents/result_file.h"
@@ -33,7 +34,8 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  if (row.document == config::Document::result) report::read_result(path);  // cases that are there twice
+  if (row.document == config::Document::result) report::read_result(path);              // cases that are there twice
+  if (row.document == config::Document::dump) dump::parse_dump(file_text(path), path);  // keys that nothing reads
   for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list", "test"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
