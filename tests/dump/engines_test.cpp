@@ -293,7 +293,7 @@ TEST(Engines, lists_of_godot_are_judged_in_its_two_parts_of_the_cluster_buffer) 
   fill_camera(json, {1920, 1080});
   json["grid"]["slices"]["formula"]["scale"] = 32.0 / 60.0;
   std::vector<Lamp> all = lamps(0.3);
-  std::ranges::stable_partition(all, [](const Lamp& lamp) { return lamp.half_angle_rad == 0.0; });
+  std::stable_partition(all.begin(), all.end(), [](const Lamp& lamp) { return lamp.half_angle_rad == 0.0; });
   std::vector<float> omnis, spots;
   for (const Lamp& lamp : all) {
     std::vector<float> row(56, 0.0f);
