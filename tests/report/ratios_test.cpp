@@ -8,14 +8,13 @@
 #include "config/schema/documents.h"
 #include "config/schema/schema_verdict.h"
 #include "report/cases/timing_warnings.h"
+#include "report/comparison_by_hand.h"
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"
 #include "report/tables/table.h"
 
 namespace clusterbench::report::testing {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Cases whose frames take these times in so many launches of equally many rounds.
 result::Result timed_result(const std::vector<std::vector<double>>& samples, int launches = 3) {
