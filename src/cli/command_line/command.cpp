@@ -258,6 +258,7 @@ bool names_unknown_command(const CLI::App& program) {
 int run_command_line(int argc, char** argv) {
   gpu::register_methods();
   CLI::App app{"Measures clustered light assignment: exact error, list sizes, time.", "clusterbench"};
+  app.allow_windows_style_options(false);  // "/level.glb" is a file there, too
   app.require_subcommand(0, 1);
   Command program(&app);
   Action action;
