@@ -27,7 +27,7 @@ std::string type_text() {
   if (type == nullptr) return "";
   int status = 0;
   char* name = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
-  const std::string text = "of the type " + cut(name == nullptr ? type->name() : name);
+  std::string text = "of the type " + cut(name == nullptr ? type->name() : name);
   std::free(name);
   return text;
 #else
