@@ -64,12 +64,13 @@ struct WeightedSet {
 
 std::vector<WeightedSet> weighted_sets(const Case& result_case, const Json& config) {
   std::vector<WeightedSet> sets;
-  for (const auto& [name, weight] : config["cost"]["weights"].items()) {
+  const Json weights = config["cost"].value("weights", Json::object());  // results of older versions lack keys
+  for (const auto& [name, weight] : weights.items()) {
     const SampleSet* counts = samples_of_set(result_case, name);
     if (weight == 0.0 || counts == nullptr) continue;
     const double per_frame = shaded_in_frame(result_case, name, weight, static_cast<double>(counts->samples), config);
     sets.push_back(
-        {name, counts, shaded_samples(result_case, *counts, per_frame, config["cost"]["wave"].get<std::string>())});
+        {name, counts, shaded_samples(result_case, *counts, per_frame, config["cost"].value("wave", "8x8"))});
   }
   return sets;
 }
@@ -78,7 +79,8 @@ std::vector<WeightedSet> weighted_sets(const Case& result_case, const Json& conf
 // other points.
 bool lacks_weighted_points(const Case& result_case, const Json& config) {
   const bool is_requested = config.contains("shading") && config["shading"].value("samples", 0) > 0;
-  return is_requested && config["cost"]["weights"].value("volume", Json(0)) != 0.0 && !result_case.shading;
+  return is_requested && config["cost"].value(Json::json_pointer("/weights/volume"), Json(0)) != 0.0 &&
+         !result_case.shading;
 }
 
 double upload_bytes(const Case& result_case) {
