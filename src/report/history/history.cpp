@@ -49,10 +49,10 @@ std::unique_ptr<os::LockedFile> locked_history(const std::string& path, const Hi
   }
 }
 
-// Of other commits; their cases are read when they are asked for.
-class Others {
+// Lines of commits other than the one that is added; their cases are read when they are asked for.
+class OtherCommits {
  public:
-  explicit Others(const std::string& path) : path_(path) {}
+  explicit OtherCommits(const std::string& path) : path_(path) {}
 
   void add(const HistoryLine& line, HistoryEntry head) {
     lines_.push_back(line);
@@ -107,7 +107,7 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
   addition.other_names = file->other_names();
   std::size_t insert_at = text.size();
   std::vector<HistoryEntry> all;
-  Others others(path);
+  OtherCommits others(path);
   for (const HistoryLine& earlier : history_lines(path, text)) {
     all.push_back(earlier.head(path));
     if (all.back().commit != commit) {

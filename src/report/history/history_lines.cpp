@@ -184,7 +184,7 @@ std::string head_of(std::string_view line) {
   return std::string(line.substr(0, cases)) + k_cases.data() + "]}";
 }
 
-// Which is a document of many lines. Its first keys are enough.
+// A result is a document of many lines; its first keys tell it.
 bool is_result(std::string_view text) {
   return text.substr(0, 400).find("\"schema_version\"") != std::string_view::npos && text.starts_with("{\n");
 }
