@@ -73,7 +73,7 @@ function(clusterbench_gpu TARGET)
       endif()
       set(FILE ${OUTPUT}/${NAME}_${VARIANT}.h)
       add_custom_command(OUTPUT ${FILE} DEPENDS ${SHADER} ${INCLUDED} VERBATIM COMMENT "SPIR-V of ${NAME} (${VARIANT})"
-        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 ${DEFINE} --vn ${NAME}_${VARIANT} -o ${FILE} ${SHADER})
+        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.2 ${DEFINE} --vn ${NAME}_${VARIANT} -o ${FILE} ${SHADER})
       target_sources(${TARGET} PRIVATE ${FILE})
       string(APPEND CODE "#include \"spirv/${NAME}_${VARIANT}.h\"\n")
       string(APPEND CASES "  if (shader == \"${NAME}\" && rounds_to_nearest == ${ASKS}) return ${NAME}_${VARIANT};\n")

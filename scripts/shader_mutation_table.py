@@ -109,10 +109,10 @@ MUTATIONS = [
     Mutation("tile-lights-touching-is-outside", "shaders/tile_lights.comp", "ball.x, -ball.z) > ball.w", "ball.x, -ball.z) >= ball.w",
              unseen="a ball is padded, so that one which just reaches the plane holds no light that does"),
     # --- barriers between commands, padding and sizes on the host ---
-    Mutation("commands-no-barriers", "vulkan/commands.cpp", "  vkCmdPipelineBarrier2(device_.commands, &info);\n}\n\nvoid Commands::flush()", "}\n\nvoid Commands::flush()"),
-    Mutation("commands-barrier-of-nothing-written", "vulkan/commands.cpp", "memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;", "memory.srcAccessMask = 0;"),
+    Mutation("commands-no-barriers", "vulkan/commands.cpp", "  vkCmdPipelineBarrier(device_.commands, k_work, k_work, 0, 1, &memory, 0, nullptr, 0, nullptr);\n}", "}"),
+    Mutation("commands-barrier-of-nothing-written", "vulkan/commands.cpp", "nullptr, VK_ACCESS_MEMORY_WRITE_BIT,", "nullptr, 0,"),
     Mutation("commands-barrier-before-copies", "vulkan/commands.cpp", "    barrier();\n    for (const Buffers::Impl::Download", "    for (const Buffers::Impl::Download"),
-    Mutation("commands-barrier-before-the-host", "vulkan/commands.cpp", "    vkCmdPipelineBarrier2(device_.commands, &info);\n  }\n  mark();", "  }\n  mark();",
+    Mutation("commands-barrier-before-the-host", "vulkan/commands.cpp", "VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory,", "VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 0, nullptr,",
              unseen="software drivers write to the memory that the host reads, and the validation layer does not follow reads of the host"),
     Mutation("lists-barrier-after-upload", "methods/device_frame.cpp", "  upload_all(commands, Binding::box_bounds, boxes_);\n  commands.barrier();", "  upload_all(commands, Binding::box_bounds, boxes_);"),
     Mutation("lists-barrier-after-counts", "methods/device_lists.cpp", "record_counts(commands, arguments);\n  commands.barrier();", "record_counts(commands, arguments);"),

@@ -11,6 +11,7 @@ In RenderDoc's own window (Python Shell, Run Scripts) it writes the selected eve
 
 import argparse
 import json
+import os
 import pathlib
 import re
 import sys
@@ -427,6 +428,8 @@ def main(arguments):
     except Refused as problem:
         print(f"dump_buffers.py: {problem}", file=sys.stderr)
         return 2
+    except BrokenPipeError:  # its reader has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as problem:
         print(f"dump_buffers.py: {problem.filename}: {problem.strerror}", file=sys.stderr)
         return 2

@@ -31,6 +31,7 @@ std::vector<ListKey> keys_of(const result::DumpLists& lists) {
           {"offset", lists.offset.has_value(), k_of_offsets},
           {"offset_is", lists.offset_is.has_value(), k_of_offsets},
           {"counts", lists.counts.has_value(), k_of_entries},
+          {"end", lists.end.has_value(), k_of_offsets},
           {"entries", entries.has_value(), k_of_entries},
           {"entries/end", entries && entries->end, {"fixed"}},
           {"per_cell", lists.per_cell.has_value(), {"fixed"}},

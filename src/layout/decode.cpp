@@ -131,6 +131,15 @@ std::uint64_t end_of(std::span<const Field> fields) {
   return end;
 }
 
+// The entry behind a list's last; it may lie in the row of the next cell.
+std::vector<Field> end_field(const BufferReader& reader, const ListPart& part, std::uint64_t stride) {
+  if (!part.lists.end) return {};
+  if (part.lists.counts)
+    throw Error("", part.pointer + "/end", "does not go with counts: either says how long a list is");
+  constexpr std::uint64_t k_most = std::numeric_limits<std::uint64_t>::max();
+  return {reader.field(*part.lists.end, stride > k_most / 2 ? k_most : 2 * stride, part.pointer + "/end")};
+}
+
 // The sum of a row's counts, which may not be above `most`; nullopt: it is.
 std::optional<std::uint64_t> count_in(const std::vector<Field>& fields, const Rows& rows, const CellRow& at,
                                       std::uint64_t most, const std::string& most_text, Faults& faults) {
@@ -150,7 +159,7 @@ std::optional<std::uint64_t> count_in(const std::vector<Field>& fields, const Ro
   return sum;
 }
 
-// Offset and counts in rows, entries elsewhere. runs: two numbers per entry.
+// Offset and counts (or end) in rows, entries elsewhere. runs: two numbers per entry.
 class PackedReader final : public PartReader {
  public:
   PackedReader(const ListPart& part, const BufferReader& reader, const Shape& shape)
@@ -158,10 +167,12 @@ class PackedReader final : public PartReader {
     const result::DumpRows& given = needed(part.lists.rows, part, "rows");
     std::vector<Field> fields{
         reader.field(needed(part.lists.offset, part, "offset"), given.stride, part.pointer + "/offset")};
-    needed(part.lists.counts, part, "counts");
-    counts_ = count_fields(reader, part);
     offset_ = fields.front();
+    end_ = end_field(reader, part, given.stride);
+    if (end_.empty()) needed(part.lists.counts, part, "counts or end");
+    counts_ = count_fields(reader, part);
     fields.insert(fields.end(), counts_.begin(), counts_.end());
+    fields.insert(fields.end(), end_.begin(), end_.end());
     rows_ = cell_rows(reader, part, rows_of_cells(part, shape), end_of(fields));
 
     const result::DumpEntries& entries = needed(part.lists.entries, part, "entries");
@@ -176,10 +187,9 @@ class PackedReader final : public PartReader {
   }
 
   void read(const CellRow& at, ListSink& out, Faults& faults) const override {
-    const std::optional<std::uint64_t> count =
-        count_in(counts_, rows_, at, lights_.count, lights_text() + " of its part", faults);
-    if (!count || *count == 0) return;
     const std::uint64_t given = offset_.whole(rows_.row(at.row));
+    const std::optional<std::uint64_t> count = end_.empty() ? counted(at, faults) : count_to_end(at, given, faults);
+    if (!count || *count == 0) return;
     const std::uint64_t offset = given == k_no_whole ? given : given / offset_unit_;
     if (given % offset_unit_ != 0 || offset > entries_.count() || *count > entries_.count() - offset) {
       faults.add({&rows_.buffer(), rows_.byte_of(at.row) + offset_.at, given, at.cell,
@@ -195,6 +205,30 @@ class PackedReader final : public PartReader {
   }
 
  private:
+  std::optional<std::uint64_t> counted(const CellRow& at, Faults& faults) const {
+    return count_in(counts_, rows_, at, lights_.count, lights_text() + " of its part", faults);
+  }
+
+  // From the offset to the end.
+  std::optional<std::uint64_t> count_to_end(const CellRow& at, std::uint64_t offset, Faults& faults) const {
+    const Field& field = end_.front();
+    const std::uint64_t end = field.whole(rows_.row(at.row));
+    const auto fault = [&](const std::string& text) {
+      faults.add({&rows_.buffer(), rows_.byte_of(at.row) + field.at, end, at.cell, text});
+      return std::nullopt;
+    };
+    if (end == k_no_whole) return fault("an end is no whole number");
+    if (end < offset) return fault("end " + number(end) + " is before the offset " + number(offset));
+    if ((end - offset) % offset_unit_ != 0)
+      return fault("end " + number(end) + " is no multiple of " + number(offset_unit_) + " bytes behind the offset " +
+                   number(offset));
+    const std::uint64_t count = (end - offset) / offset_unit_;
+    if (count > lights_.count)
+      return fault("end " + number(end) + " is " + number(count) + " behind the offset " + number(offset) +
+                   ", more than " + lights_text() + " of its part");
+    return count;
+  }
+
   // `begin`: the cell's first light in `out`.
   bool read_entry(std::uint64_t entry, const CellRow& at, std::size_t begin, ListSink& out, Faults& faults) const {
     const std::uint64_t value = whole_at(entries_.row(entry), type_), index = value - first_;
@@ -220,7 +254,7 @@ class PackedReader final : public PartReader {
   bool is_runs_;
   Rows rows_, entries_;
   Field offset_;
-  std::vector<Field> counts_;
+  std::vector<Field> counts_, end_;  // one of both; end_ has one field
   NumberType type_ = NumberType::u32;
   std::uint64_t first_ = 0, offset_unit_ = 1;
 };

@@ -62,6 +62,22 @@ bool swap_offset_and_count(DumpLists& lists, const std::string&) {
 bool set_offset_type(DumpLists& lists, const std::string& type) {
   if (!lists.offset || lists.offset->type == type) return false;
   lists.offset->type = type;
+  if (lists.end) lists.end->type = type;
+  return true;
+}
+
+// Where the description says that a row has a count, which is an end, and the other way round.
+bool take_count_for_end(DumpLists& lists, const std::string&) {
+  if (!lists.offset || !lists.counts || lists.counts->size() != 1) return false;
+  lists.end = lists.counts->front();
+  lists.counts.reset();
+  return true;
+}
+
+bool take_end_for_count(DumpLists& lists, const std::string&) {
+  if (!lists.end || lists.counts) return false;
+  lists.counts = {*lists.end};
+  lists.end.reset();
   return true;
 }
 
@@ -126,6 +142,8 @@ std::vector<Change> changes() {
     all.push_back({std::string("entries as ") + type, set_entry_type, type});
   all.push_back({"the other unit of offsets (offset_is)", change_offset_unit});
   all.push_back({"offset and (first) count swapped", swap_offset_and_count});
+  all.push_back({"the count as the end of the list (end)", take_count_for_end});
+  all.push_back({"the end as a count of entries (counts)", take_end_for_count});
   for (const char* type : {"u16", "u8", "u32"}) all.push_back({std::string("counts as ") + type, set_count_type, type});
   for (const char* type : {"u32", "u16"}) all.push_back({std::string("offsets as ") + type, set_offset_type, type});
   all.push_back({"the other meaning of the end of a range (ranges.last_is)", change_last});

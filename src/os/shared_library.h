@@ -24,4 +24,8 @@ class SharedLibrary {
   void* handle_;
 };
 
+// The address of an exported symbol of a library that is in this process already, by the library's name without what a
+// system adds: "renderdoc" is librenderdoc.so, librenderdoc.dylib or renderdoc.dll. Null if it is not there.
+void* symbol_of_loaded(const std::string& library, const char* symbol);
+
 }  // namespace clusterbench::os

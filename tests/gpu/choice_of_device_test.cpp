@@ -26,7 +26,7 @@ DeviceList a_workstation() {
            made_up("NVIDIA GeForce RTX 4090", DeviceType::discrete, "10de26840000000001000000000000bb"),
            made_up("NVIDIA GeForce RTX 4090", DeviceType::discrete, "10de26840000000002000000000000cc"),
            made_up("NVIDIA GeForce GTX 460", DeviceType::discrete, "10de0e220000000003000000000000dd",
-                   "has Vulkan 1.0.3; 1.3 is needed")},
+                   "has Vulkan 1.0.3; 1.2 is needed")},
           ""};
 }
 
@@ -92,7 +92,7 @@ TEST(ChoiceOfDevice, refuses_what_names_none_and_lists_all) {
 
 TEST(ChoiceOfDevice, refuses_a_device_that_cannot_be_used_with_its_reason) {
   for (const char* wanted : {"4", "gtx 460", "10de0e22"})
-    EXPECT_EQ(refusal(a_workstation(), wanted), "NVIDIA GeForce GTX 460 has Vulkan 1.0.3; 1.3 is needed");
+    EXPECT_EQ(refusal(a_workstation(), wanted), "NVIDIA GeForce GTX 460 has Vulkan 1.0.3; 1.2 is needed");
 }
 
 TEST(ChoiceOfDevice, without_words_is_discrete_before_integrated_before_virtual_before_software_before_others) {

@@ -37,7 +37,7 @@ if(NOT CLUSTERBENCH_SANITIZE AND GLSLANG AND VULKAN_INCLUDE AND VOLK_INCLUDE)
     foreach(VARIANT plain to_nearest)
       add_custom_command(OUTPUT ${REVERSED}/${NAME}_${VARIANT}.spv VERBATIM
         DEPENDS ${SHADER} ${INCLUDED}
-        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 -DREVERSED_LANES ${${VARIANT}}
+        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.2 -DREVERSED_LANES ${${VARIANT}}
                 -o ${REVERSED}/${NAME}_${VARIANT}.spv ${SHADER})
       list(APPEND MODULES ${REVERSED}/${NAME}_${VARIANT}.spv)
     endforeach()

@@ -56,6 +56,8 @@ TEST(Decode, the_lists_of_engines_in_every_order_are_those_that_were_written) {
   const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 2);
   const std::pair<const char*, std::function<Described(const assign::Lists&)>> engines[] = {
       {"filament", filament},
+      {"begins", begins},
+      {"begin and end", begin_and_end},
       {"tutorial", [](const auto& given) { return tutorial(given, 100); }},
       {"playcanvas", [](const auto& given) { return from_one(given, 64); }},
       {"inline", in_json}};
@@ -135,6 +137,35 @@ TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
     ASSERT_GE(faults.count, 1u) << row.name;
     EXPECT_EQ(faults.first[0].message, row.message);
   }
+}
+
+TEST(Decode, an_end_that_cannot_be_right_is_named_with_its_byte) {
+  const assign::Lists lists{{0, 2}, {3, 5}};
+  const FaultRow rows[] = {{"before", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 3); }, 4, 2,
+                            "end 2 is before the offset 3"},
+                           {"far", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 11); }, 4, 11,
+                            "end 11 is 11 behind the offset 0, more than the 10 lights of its part"},
+                           {"beyond", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 3); }, 0, 0,
+                            "offset 0 and count 3 end beyond the 2 entries of buffer 'entries'"}};
+  for (const FaultRow& row : rows) {
+    Described described = begins(lists);
+    row.plant(described);
+    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
+    ASSERT_EQ(faults.count, 1u) << row.name;
+    EXPECT_EQ(faults.first[0].message, row.message);
+    EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
+    EXPECT_EQ(faults.first[0].value, row.value) << row.name;
+  }
+  Described odd = begin_and_end(lists);
+  put<std::uint32_t>(odd.buffers[0].bytes, 4, 3);
+  EXPECT_EQ(decoded(odd, {Vec3i(1), {}, 10}).faults.first[0].message,
+            "end 3 is no multiple of 2 bytes behind the offset 0");
+  Described short_of_one = begins(lists);
+  short_of_one.buffers[0].bytes.resize(4);
+  EXPECT_THROW(decoded(short_of_one, {Vec3i(1), {}, 10}), Error);
+  Described both = begins(lists);
+  both.lists.counts = {{0, "u32", {}}};
+  EXPECT_THROW(decoded(both, {Vec3i(1), {}, 10}), Error);
 }
 
 TEST(Decode, lights_that_are_twice_in_a_list_are_counted_and_named_with_their_bytes) {
@@ -254,6 +285,32 @@ TEST(Decode, the_likeliest_other_reading_is_found) {
 }
 
 // Counts of 8 bits leave a small part of the lists, and nothing that is wrong in it.
+TEST(Decode, an_end_that_was_taken_for_a_count_is_the_likeliest_reading_and_the_other_way_round) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 6);
+  const Shape shape{k_cells, {}, k_lights};
+  const auto reading_of = [&](const Described& given, const result::DumpLists& taken_for) {
+    const ListPart part{taken_for, "/lists/0"};
+    return likely_reading({&part, 1}, given.buffers, shape).value_or("none");
+  };
+  const Described ends = begin_and_end(lists);
+  result::DumpLists as_counts = ends.lists;
+  as_counts.counts = {*std::exchange(as_counts.end, std::nullopt)};
+  EXPECT_EQ(reading_of(ends, as_counts).find("with the count as the end of the list (end) all "), 0u);
+
+  Described counted = begins(lists);
+  counted.lists.counts = {{4, "u32", {}}};
+  counted.lists.end.reset();
+  counted.lists.rows->stride = 8;
+  counted.buffers[0].bytes.clear();
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+    put(counted.buffers[0].bytes, 8 * std::size_t{cell}, lists.begin[cell]);
+    put(counted.buffers[0].bytes, 8 * std::size_t{cell} + 4, static_cast<std::uint32_t>(lists.of(cell).size()));
+  }
+  result::DumpLists as_end = counted.lists;
+  as_end.end = std::exchange(as_end.counts, std::nullopt)->front();
+  EXPECT_EQ(reading_of(counted, as_end).find("with the end as a count of entries (counts) all "), 0u);
+}
+
 TEST(Decode, a_reading_that_leaves_a_small_part_of_the_indices_is_no_likely_one) {
   Described wide;
   wide.buffers = {{"rows", "rows.bin", 0, {}}, {"indices", "indices.bin", 0, {}}};

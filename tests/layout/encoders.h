@@ -60,6 +60,41 @@ inline Described filament(const assign::Lists& lists) {
   return out;
 }
 
+// One index after the other, where each list begins, and where the last one ends.
+inline Described begins(const assign::Lists& lists) {
+  Described out;
+  out.buffers = {{"begins", "begins.bin", 0, {}}, {"entries", "entries.bin", 0, {}}};
+  for (std::size_t cell = 0; cell < lists.begin.size(); ++cell)
+    put<std::uint32_t>(out.buffers[0].bytes, 4 * cell, lists.begin[cell]);
+  for (std::size_t i = 0; i < lists.lights.size(); ++i)
+    put(out.buffers[1].bytes, 2 * i, static_cast<std::uint16_t>(lists.lights[i]));
+  out.lists.layout = "packed";
+  out.lists.rows = result::DumpRows{"begins", {}, 4};
+  out.lists.offset = result::DumpField{0, "u32", {}};
+  out.lists.end = result::DumpField{4, "u32", {}};
+  out.lists.entries = result::DumpEntries{"entries", {}, "u16", {}, {}, {}};
+  return out;
+}
+
+// Begin and end of each list, in bytes; lists lie in the order of cells, last cell first.
+inline Described begin_and_end(const assign::Lists& lists) {
+  Described out = begins(lists);
+  out.buffers[0].bytes.clear();
+  out.buffers[1].bytes.clear();
+  std::uint32_t at = 0;
+  for (std::uint32_t cell = lists.cell_count(); cell-- > 0;) {
+    put(out.buffers[0].bytes, 8 * std::size_t{cell}, at);
+    for (const std::uint32_t light : lists.of(cell)) {
+      put(out.buffers[1].bytes, at, static_cast<std::uint16_t>(light));
+      at += 2;
+    }
+    put(out.buffers[0].bytes, 8 * std::size_t{cell} + 4, at);
+  }
+  out.lists.rows->stride = 8;
+  out.lists.offset_is = "bytes";
+  return out;
+}
+
 // The tutorial: a struct of 32 bytes of bounds, a count at 32, `cap` indices from 36.
 inline Described tutorial(const assign::Lists& lists, std::uint32_t cap) {
   Described out;

@@ -28,6 +28,17 @@ def run(command, **environment):
     return subprocess.run(command, env={**os.environ, **environment}, capture_output=True, text=True, timeout=120)
 
 
+def run_with_renderdoc(command, **environment):
+    """RenderDoc itself, with a driver that computes on all processors, has been ended by a signal once in thousands of runs: such a
+    run is made again."""
+    for _ in range(3):
+        done = run(command, PYTHONFAULTHANDLER="1", **environment)
+        if done.returncode >= 0:
+            break
+        print(f"{command[0]} was ended by signal {-done.returncode}\n{done.stderr}", file=sys.stderr)
+    return done
+
+
 def with_comments(path):
     """The JSON of a dump whose comments stand at the end of lines."""
     return json.loads(re.sub(r"//[^\n]*", "", path.read_text()))
@@ -72,13 +83,13 @@ class OfACapture(Folders):
     def captured(self):
         # As `renderdoccmd capture` does, which fails where the program ends before it has looked for it.
         capture = {"ENABLE_VULKAN_RENDERDOC_CAPTURE": "1", "RENDERDOC_CAPFILE": str(self.folder / "grid")}
-        done = run([LIGHT_GRID], **lavapipe(), **capture)
+        done = run_with_renderdoc([LIGHT_GRID], **lavapipe(), **capture)
         found = list(self.folder.glob("*.rdc"))
         self.assertEqual(len(found), 1, done.stdout + done.stderr)
         return found[0]
 
     def script(self, *options):
-        return run([SYSTEM_PYTHON, SCRIPT, *options], **lavapipe())
+        return run_with_renderdoc([SYSTEM_PYTHON, SCRIPT, *options], **lavapipe())
 
     def filled(self, path):
         """What the script leaves to the user, as the program has it."""
@@ -113,6 +124,40 @@ class OfACapture(Folders):
         lost = self.check(dump)
         self.assertEqual(lost["verdict"], "lost")
         self.assertTrue(all(row["row"] == longest // 132 for row in lost["lost"]))
+
+    def test_methods_of_ours_lose_none_in_their_captures(self):
+        for method in ("gpu-cells", "gpu-group", "gpu-lights"):
+            with self.subTest(method):
+                self.judge_captured(method)
+
+    def judge_captured(self, method):
+        """The lists that lie in the device's buffers, held against the camera, the grid and the lights that the program writes."""
+        folder = self.folder / method
+        done = run_with_renderdoc(
+            [PROGRAM, "run", ROOT / "scenes" / "street.glb", "--assigner", method, "--grid", "frustum", "--tiles", "16x9t", "--slices", "24",
+             "--scheme", "exponential", "--set", "scenes.*.frames=1", "--no-timing", "--write-dump", folder],
+            **lavapipe(), ENABLE_VULKAN_RENDERDOC_CAPTURE="1", RENDERDOC_CAPFILE=str(self.folder / f"{method}-gpu"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # The last capture is of the shaders that ran last for the first time: those of the method. The ones before it are of probes.
+        capture = max(self.folder.glob(f"{method}-gpu*.rdc"), key=lambda path: path.stat().st_mtime_ns)
+        listed = self.script(capture)
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        event = int(re.findall(r"event (\d+): vkCmdDispatch", listed.stdout)[-1])
+        written = self.script(capture, "--event", str(event), "-o", self.folder / f"{method}.json")
+        self.assertEqual(written.returncode, 0, written.stderr)
+        captured = {name.split("_")[0]: row for name, row in with_comments(self.folder / f"{method}.json")["buffers"].items()}
+        ours = json.loads(next(folder.glob("*.json")).read_text())
+        as_written = self.check({**ours, "buffers": {name: {"file": str(folder / row["file"])} for name, row in ours["buffers"].items()}})
+        dump = dict(ours)
+        dump["buffers"] = {"lights": {"file": str(folder / ours["buffers"]["lights"]["file"])}, "Begins": captured["Begins"],
+                           "Lists": captured["Lists"]}
+        field = {"type": "u32"}
+        dump["lists"] = [{"layout": "packed", "rows": {"buffer": "Begins", "stride": 4}, "offset": {"at": 0, **field},
+                          "end": {"at": 4, **field}, "entries": {"buffer": "Lists", **field}}]
+        found = self.check(dump)
+        self.assertEqual((found["verdict"], found["error"]["lost_pairs"]), ("right", 0), found)
+        self.assertGreater(found["error"]["true_pairs"], 1000)
+        self.assertEqual(found["error"], as_written["error"], "in the capture as in what was read back")
 
     def test_what_cannot_be_is_a_sentence(self):
         capture = self.captured()

@@ -133,7 +133,8 @@ class Commands {
   // The first bytes of a buffer, for downloaded() after run().
   void download(std::uint32_t binding, std::uint64_t bytes);
 
-  // Throws DeviceError if the device fails.
+  // Throws DeviceError if the device fails. Where RenderDoc is in this process, the first run of each shader is a
+  // capture.
   void run();
   // Between two marks; 0 without a clock.
   double ns_between(std::uint32_t first, std::uint32_t last) const;
@@ -146,6 +147,7 @@ class Commands {
   std::unique_lock<std::recursive_mutex> turn_;
   std::uint32_t steps_ = 0;  // until the last barrier
   bool has_work_ = false;    // since then
+  bool has_new_shader_ = false;
 };
 
 }  // namespace clusterbench::gpu

@@ -24,6 +24,8 @@ std::uint64_t size_of_number(const Json& object) {
 }
 
 class ListPartCheck {
+  static constexpr std::uint64_t k_far = std::uint64_t{1} << 62;
+
  public:
   ListPartCheck(const Json& part, const result::DumpLists& lists, const BytesOfBuffer& bytes_of,
                 const std::string& where)
@@ -36,6 +38,8 @@ class ListPartCheck {
     if (lists_.nodes) check_rows("nodes");
     for (const char* key : {"offset", "head"})
       if (part_.contains(key)) check_field(part_[key], stride_of("rows"), where_ + "/" + key);
+    if (const std::optional<std::uint64_t> stride = stride_of("rows"); lists_.end)  // it may be the next cell's offset
+      check_field(part_["end"], stride && *stride < k_far ? 2 * *stride : stride, where_ + "/end");
     if (lists_.counts)
       for (std::size_t i = 0; i < part_["counts"].size(); ++i)
         check_field(part_["counts"][i], stride_of("rows"), where_ + "/counts/" + std::to_string(i));
@@ -59,7 +63,8 @@ class ListPartCheck {
     if (layout == "packed" || layout == "runs") {
       need(lists_.rows.has_value(), "rows");
       need(lists_.offset.has_value(), "offset");
-      need(lists_.counts.has_value(), "counts");
+      need(lists_.counts.has_value() || lists_.end.has_value(), "counts or end");
+      if (lists_.counts && lists_.end) refuse("/end", "does not go with counts: either says how long a list is");
       need(lists_.entries.has_value(), "entries");
       need(lists_.entries->buffer.has_value(), "entries/buffer");
     } else if (layout == "fixed") {

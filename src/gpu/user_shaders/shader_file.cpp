@@ -167,7 +167,7 @@ ShaderFile read_shader_file(const fs::path& path) {
                             throw Error(path.string(), where,
                                         "names " + shortened(module.string()) +
                                             ", which does not exist; it is made by glslangValidator -V --target-env "
-                                            "vulkan1.3 X.comp -o X.spv");
+                                            "vulkan1.2 X.comp -o X.spv");
                           });
 }
 

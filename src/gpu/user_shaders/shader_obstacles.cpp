@@ -12,6 +12,10 @@ namespace {
 
 // The reason why this device cannot run the module; "" if it can.
 std::string module_obstacle(const DeviceFacts& facts, const SpirvModule& module, const std::string& name) {
+  constexpr std::uint32_t k_version_1_5 = 0x00010500;
+  if (!facts.has_vulkan_1_3 && module.version > k_version_1_5)
+    return facts.name + " has Vulkan " + facts.vulkan + ", which reads SPIR-V 1.0 to 1.5; " + name +
+           " is of a later one (--target-env vulkan1.2)";
   for (const std::uint32_t capability : module.capabilities)
     if (!std::ranges::binary_search(facts.capabilities, capability))
       return is_capability_asked_for(capability)

@@ -441,7 +441,7 @@ class ModuleReader {
 void check_beginning(std::span<const std::byte> bytes, const std::string& file) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.find("#version") != std::string_view::npos && text.find('\0') == std::string_view::npos)
-    throw Error(file, "", "is GLSL; a module is SPIR-V: glslangValidator -V --target-env vulkan1.3 X.comp -o X.spv");
+    throw Error(file, "", "is GLSL; a module is SPIR-V: glslangValidator -V --target-env vulkan1.2 X.comp -o X.spv");
   if (bytes.size() % 4 != 0 || bytes.size() < k_header * 4)
     throw Error(file, "",
                 "is no SPIR-V: " + number_of(bytes.size(), "byte") + ", where a module has words of 4, and 5 or more");

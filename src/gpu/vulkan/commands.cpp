@@ -63,7 +63,9 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
   if (groups == 0) return;
   has_work_ = true;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
-  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
+  const VkPipeline pipeline = device_.pipelines.at(kernel);
+  has_new_shader_ |= device_.run_before.insert(pipeline).second;
+  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
                      arguments.words.data());
   vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),
@@ -75,6 +77,7 @@ void Commands::dispatch(const Program& program, std::span<const std::byte> argum
   if (groups[0] == 0 || groups[1] == 0 || groups[2] == 0) return;
   has_work_ = true;
   const Program::Impl& of = program.impl();
+  has_new_shader_ |= device_.run_before.insert(of.pipeline).second;
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.pipeline);
   vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.layout, 0,
                           static_cast<std::uint32_t>(of.sets.size()), of.sets.data(), 0, nullptr);
@@ -87,17 +90,10 @@ void Commands::dispatch(const Program& program, std::span<const std::byte> argum
 void Commands::barrier() {
   steps_ = steps();
   has_work_ = false;
-  VkMemoryBarrier2 memory{};
-  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-  memory.srcStageMask = memory.dstStageMask =
-      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-  memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-  memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-  VkDependencyInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.memoryBarrierCount = 1;
-  info.pMemoryBarriers = &memory;
-  vkCmdPipelineBarrier2(device_.commands, &info);
+  constexpr VkPipelineStageFlags k_work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+  const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
+                               VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
+  vkCmdPipelineBarrier(device_.commands, k_work, k_work, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void Commands::flush() {
@@ -108,7 +104,7 @@ void Commands::flush() {
 
 std::uint32_t Commands::mark() {
   if (device_.facts.timestamp_bits > 0)
-    vkCmdWriteTimestamp2(device_.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, device_.marks, buffers_.mark_count);
+    vkCmdWriteTimestamp(device_.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, device_.marks, buffers_.mark_count);
   return buffers_.mark_count++;
 }
 
@@ -131,28 +127,19 @@ void Commands::run() {
       const VkBufferCopy copy{0, one.offset, one.bytes};
       vkCmdCopyBuffer(device_.commands, buffers_.at.at(one.binding).buffer, buffers_.to_host.buffer, 1, &copy);
     }
-    VkMemoryBarrier2 memory{};
-    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-    memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &memory;
-    vkCmdPipelineBarrier2(device_.commands, &info);
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
+                                 VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(device_.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0,
+                         nullptr, 0, nullptr);
   }
   mark();
   check(vkEndCommandBuffer(device_.commands), "vkEndCommandBuffer");
-  VkCommandBufferSubmitInfo command{};
-  command.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-  command.commandBuffer = device_.commands;
-  VkSubmitInfo2 submit{};
-  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &command;
-  check(vkQueueSubmit2(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit2");
+  VkSubmitInfo submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &device_.commands;
+  const FrameCapture::Scope capture(device_.capture, has_new_shader_);
+  check(vkQueueSubmit(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit");
   const VkResult waited = vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns);
   device_.is_stuck = waited == VK_TIMEOUT;
   check(waited, "vkWaitForFences");

@@ -73,15 +73,15 @@ void Device::Impl::create_device(std::uint32_t queue_family, bool has_robust_buf
   ShaderFeatures optional(physical);
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  features13.synchronization2 = VK_TRUE;
-  features13.maintenance4 = VK_TRUE;
+  features13.maintenance4 = VK_TRUE;  // modules of SPIR-V 1.6 may name their group's size by constants
   features13.subgroupSizeControl = features13.computeFullSubgroups = facts.has_full_subgroups ? VK_TRUE : VK_FALSE;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.features = optional.base.features;
   features.features.robustBufferAccess = has_robust_buffers && !facts.has_pipeline_robustness ? VK_TRUE : VK_FALSE;
   features13.pNext = &optional.features11;
-  features.pNext = &features13;
+  features.pNext = &optional.features11;
+  if (facts.has_vulkan_1_3) features.pNext = &features13;
   std::vector<const char*> extensions;
   VkPhysicalDevicePipelineRobustnessFeaturesEXT robustness{};
   robustness.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT;
@@ -119,6 +119,7 @@ void Device::Impl::create_device(std::uint32_t queue_family, bool has_robust_buf
   info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
   volkLoadDevice(device);
+  capture = FrameCapture::find();
   vkGetDeviceQueue(device, queue_family, 0, &queue);
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_properties);
 

@@ -2,11 +2,13 @@
 // The logical device: memory, pipelines, and the one command buffer that all commands are recorded into.
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "gpu/device/device.h"
+#include "gpu/vulkan/frame_capture.h"
 #include "gpu/vulkan/vulkan.h"
 
 namespace clusterbench::gpu {
@@ -53,6 +55,8 @@ struct Device::Impl {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   std::vector<VkPipeline> pipelines;  // by Kernel
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, Kernel> kernels;
+  std::set<VkPipeline> run_before;
+  FrameCapture capture;
 
  private:
   Impl() = default;  // what is complete is destroyed, however far the constructor after it comes

@@ -48,10 +48,15 @@ std::uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& familie
   return family;
 }
 
-std::string feature_obstacle(const VkPhysicalDeviceVulkan13Features& features) {
-  if (features.synchronization2 == 0) return "lacks synchronization2, a feature of Vulkan 1.3";
-  if (features.maintenance4 == 0) return "lacks maintenance4, a feature of Vulkan 1.3";
-  return "";
+// Of Vulkan 1.3: a shader's subgroups can be asked to be full.
+bool has_full_subgroups(VkPhysicalDevice device) {
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features13;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  return features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
 }
 
 std::string limit_obstacle(const VkPhysicalDeviceLimits& limits) {
@@ -113,17 +118,12 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.name = properties.properties.deviceName;
   facts.type = type_of(properties.properties.deviceType);
   facts.vulkan = version_text(properties.properties.apiVersion);
-  if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
-    facts.obstacle = "has Vulkan " + facts.vulkan + "; 1.3 is needed";
+  if (properties.properties.apiVersion < VK_API_VERSION_1_2) {
+    facts.obstacle = "has Vulkan " + facts.vulkan + "; 1.2 is needed";
     return found;
   }
+  facts.has_vulkan_1_3 = properties.properties.apiVersion >= VK_API_VERSION_1_3;
   vkGetPhysicalDeviceProperties2(device, &properties);
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &features13;
-  vkGetPhysicalDeviceFeatures2(device, &features);
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
@@ -146,7 +146,7 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
   facts.rounds_to_nearest =
       properties12.shaderRoundingModeRTEFloat32 != 0 && properties12.shaderSignedZeroInfNanPreserveFloat32 != 0;
-  facts.has_full_subgroups = features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
+  facts.has_full_subgroups = facts.has_vulkan_1_3 && has_full_subgroups(device);
   const bool has_subgroups = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   const VkSubgroupFeatureFlags operations = has_subgroups ? properties11.subgroupSupportedOperations : 0;
   facts.has_ballots = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
@@ -162,7 +162,6 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   found.queue_family = compute_family(families);
   if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;
   facts.obstacle = found.queue_family == count ? "has no queue that computes" : limit_obstacle(limits);
-  if (facts.obstacle.empty()) facts.obstacle = feature_obstacle(features13);
   return found;
 }
 

@@ -44,6 +44,7 @@ Program::Impl::Impl(Device::Impl& of, const ProgramCode& code) : Impl(of, Nothin
 
 Program::Impl::~Impl() {
   if (device.is_stuck) return;
+  device.run_before.erase(pipeline);
   vkDestroyPipeline(device.device, pipeline, nullptr);
   vkDestroyPipelineLayout(device.device, layout, nullptr);
   vkDestroyDescriptorPool(device.device, pool, nullptr);

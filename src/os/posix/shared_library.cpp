@@ -19,4 +19,12 @@ void* SharedLibrary::symbol(const char* name) const {
   return dlsym(handle_, name);
 }
 
+void* symbol_of_loaded(const std::string& library, const char* symbol) {
+  for (const char* ending : {".so", ".dylib"}) {
+    void* handle = dlopen(("lib" + library + ending).c_str(), RTLD_NOW | RTLD_NOLOAD);
+    if (handle != nullptr) return dlsym(handle, symbol);
+  }
+  return nullptr;
+}
+
 }  // namespace clusterbench::os

@@ -16,4 +16,9 @@ void* SharedLibrary::symbol(const char* name) const {
   return reinterpret_cast<void*>(::GetProcAddress(static_cast<HMODULE>(handle_), name));
 }
 
+void* symbol_of_loaded(const std::string& library, const char* symbol) {
+  const HMODULE loaded = ::GetModuleHandleA((library + ".dll").c_str());
+  return loaded == nullptr ? nullptr : reinterpret_cast<void*>(::GetProcAddress(loaded, symbol));
+}
+
 }  // namespace clusterbench::os
