@@ -353,7 +353,7 @@ def skeleton(path, event, viewport, names, files, bounds):
         *buffer_lines(names, files, bounds),
         "  },",
         '  "camera": {',
-        '    "world_to_view": [],  // 16 numbers; leave it out where lights are in view space',
+        '    "world_to_view": [],  // 16 numbers; where lights are in view space leave it out, and say "space": "view" in lights',
         '    "projection": [],     // 16 numbers',
         '    "order": "columns",',
         '    "forward": "-z",',

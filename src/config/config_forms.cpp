@@ -94,8 +94,11 @@ Json filled(const JsonText& text) {
   document.erase("$schema");
   if (document["name"].get_ref<const std::string&>().empty())
     document["name"] = printable(std::filesystem::path(text.file).stem().string());
-  document["assigners"] = with_shaders(without_globs(document["assigners"], text), shaders);
-  document = read_by_schema(schema, long_form(document, text), text);
+  Json longer = document;
+  longer["assigners"] = with_shaders(without_globs(document["assigners"], text), shaders);
+  longer = long_form(std::move(longer), text);
+  for (const auto& [key, value] : longer.items())  // defaults have short forms, too
+    if (value != document[key]) document[key] = read_member_by_schema(schema, key, value, text);
   if (document.value("as_shipped", false) && !document.contains("presets"))
     throw Error(text.file, text.where("/as_shipped"), "found true without presets; allowed beside presets only");
   if (!document.contains("presets")) return document;

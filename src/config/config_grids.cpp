@@ -46,6 +46,12 @@ constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
                            {"/follow", 0},
                            {"/cell_size", 1}};
 
+std::vector<Json::json_pointer> axis_pointers() {
+  std::vector<Json::json_pointer> out;
+  for (const Axis& axis : k_axes) out.emplace_back(axis.pointer);
+  return out;
+}
+
 // Error ("", pointer) if lists multiply to more.
 void check_combinations(std::uint64_t count, const std::string& pointer) {
   if (count > k_most_combinations)
@@ -73,7 +79,8 @@ bool is_list(const Json& object, const Json::json_pointer& axis, int depth) {
 }
 
 // Copies of each object of `all`, with each value of the list of the axis.
-std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_pointer& axis, int depth) {
+std::vector<Json> expand_axis(std::vector<Json> all, const Json::json_pointer& axis, int depth) {
+  if (std::ranges::none_of(all, [&](const Json& object) { return is_list(object, axis, depth); })) return all;
   std::uint64_t count = 0;
   for (const Json& object : all) count += is_list(object, axis, depth) ? object[axis].size() : 1;
   check_combinations(count, axis.to_string());
@@ -130,7 +137,8 @@ bool has_one_slice_and_a_first(const Json& grid) {
 
 std::vector<Json> expanded(const Json& grid) {
   std::vector<Json> all{grid};
-  for (const Axis& axis : k_axes) all = expand_axis(all, Json::json_pointer(axis.pointer), axis.depth);
+  static const std::vector<Json::json_pointer> pointers = axis_pointers();
+  for (std::size_t i = 0; i < std::size(k_axes); ++i) all = expand_axis(std::move(all), pointers[i], k_axes[i].depth);
   std::vector<Json> out;
   std::set<Json> different;
   for (Json& single : all) {
@@ -221,7 +229,7 @@ std::vector<Json> expand_all_axes(const Json& object, const JsonText& text, cons
   std::vector<Json> all{object};
   placed(text, pointer, [&] {
     for (const auto& [key, value] : object.items())
-      all = expand_axis(all, Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
+      all = expand_axis(std::move(all), Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
   });
   return all;
 }

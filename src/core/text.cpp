@@ -68,6 +68,11 @@ std::string printable_json(std::string_view json) {
   std::string out;
   out.reserve(json.size());
   while (!json.empty()) {
+    const std::size_t ascii =
+        static_cast<std::size_t>(std::ranges::find_if(json, [](char c) { return c < 0 || c == 0x7F; }) - json.begin());
+    out += json.substr(0, ascii);
+    json.remove_prefix(ascii);
+    if (json.empty()) break;
     std::uint32_t code = 0;
     const std::size_t size = std::max<std::size_t>(character_bytes(json, code), 1);
     if (code >= 0x7F && is_obeyed(code)) {

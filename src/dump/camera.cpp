@@ -196,7 +196,8 @@ Camera bare_camera_of(const result::DumpCamera& camera, bool lights_in_view_spac
   if (lights_in_view_space) {
     out.is_world_mirrored = forward > 0.0;
   } else if (!camera.world_to_view && !camera.view_to_world) {
-    throw Error("", "/camera/world_to_view", "is missing: name it, view_to_world, or a scene");
+    throw Error("", "/camera/world_to_view",
+                "is missing: name it, view_to_world, a scene, or lights in view space (lights.space)");
   } else {
     out.view_space = space_of_matrix(camera, is_by_rows);
     if (forward > 0.0)

@@ -46,6 +46,12 @@ bool is_whole(NumberType type) {
   return type <= NumberType::u64;
 }
 
+std::string bits_allowed(NumberType type) {
+  if (!is_whole(type)) return std::string("allowed: none, since ") + name_of(type) + " is no whole number";
+  return "allowed: the first bit and how many, at least 1, within the " + std::to_string(8 * size_of(type)) +
+         " bits of " + name_of(type);
+}
+
 double real_at(const std::byte* bytes, NumberType type) {
   const std::uint64_t bits = little_endian(bytes, size_of(type));
   if (type == NumberType::f64) return std::bit_cast<double>(bits);
@@ -85,8 +91,7 @@ Field BufferReader::field(const result::DumpField& field, std::uint64_t row_byte
   const std::uint64_t width = 8 * size_of(out.type);
   if (!is_whole(out.type) || first >= width || count < 1 || count > width - first)
     throw Error("", pointer + "/bits",
-                "is [" + std::to_string(first) + ", " + std::to_string(count) + "]; allowed: bits of the type, " +
-                    field.type + ", which has to be a whole one");
+                "is [" + std::to_string(first) + ", " + std::to_string(count) + "]; " + bits_allowed(out.type));
   out.shift = first;
   if (count < 64) out.mask = (std::uint64_t{1} << count) - 1;
   return out;

@@ -22,6 +22,8 @@ NumberType number_type(const std::string& name);  // a name that the schema allo
 const char* name_of(NumberType type);
 std::uint64_t size_of(NumberType type);
 bool is_whole(NumberType type);
+// For messages, of a field with bits: "allowed: the first bit and how many ..."
+std::string bits_allowed(NumberType type);
 
 // Little-endian, at any byte. The caller has checked that the bytes are there.
 double real_at(const std::byte* bytes, NumberType type);

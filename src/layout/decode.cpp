@@ -134,10 +134,28 @@ std::uint64_t end_of(std::span<const Field> fields) {
 // The entry behind a list's last; it may lie in the row of the next cell.
 std::vector<Field> end_field(const BufferReader& reader, const ListPart& part, std::uint64_t stride) {
   if (!part.lists.end) return {};
-  if (part.lists.counts)
-    throw Error("", part.pointer + "/end", "does not go with counts: either says how long a list is");
-  constexpr std::uint64_t k_most = std::numeric_limits<std::uint64_t>::max();
-  return {reader.field(*part.lists.end, stride > k_most / 2 ? k_most : 2 * stride, part.pointer + "/end")};
+  const std::string pointer = part.pointer + "/end";
+  if (part.lists.counts) throw Error("", pointer, "does not go with counts: either says how long a list is");
+  const result::DumpField& end = *part.lists.end;
+  if (const auto& offset = part.lists.offset; offset && offset->at == end.at && offset->bits == end.bits)
+    throw Error("", pointer, "is the field that `offset` is: all lists would be empty");
+  const std::uint64_t size = size_of(number_type(end.type));
+  if (end.at > stride && (end.at - stride > stride || size > stride - (end.at - stride)))
+    throw Error("", pointer + "/at",
+                "is " + number(end.at) + ": its " + number_of(size, "byte") + " end beyond the next row; rows are " +
+                    number_of(stride, "byte") + " apart");
+  return {reader.field(end, end.at + size, pointer)};
+}
+
+// Where the end of a list is the offset of the next one, the last one's needs a row more than there are cells.
+void check_last_end(const BufferReader& reader, const ListPart& part, std::uint64_t rows, std::uint64_t row_bytes) {
+  const result::DumpRows& given = *part.lists.rows;
+  const std::uint64_t bytes = reader.buffer(given.buffer, part.pointer + "/rows/buffer").bytes.size();
+  const std::uint64_t begin = std::min(given.at.value_or(0), bytes);
+  if (row_bytes <= given.stride || given.stride == 0 || (bytes - begin) / given.stride != rows) return;
+  throw Error("", part.pointer + "/end",
+              "of the last cell would lie behind the end of buffer '" + given.buffer + "', in a row more than the " +
+                  number(rows) + " that its " + number_of(bytes, "byte") + " hold");
 }
 
 // The sum of a row's counts, which may not be above `most`; nullopt: it is.
@@ -151,7 +169,7 @@ std::optional<std::uint64_t> count_in(const std::vector<Field>& fields, const Ro
       continue;
     }
     faults.add({&rows.buffer(), rows.byte_of(at.row) + field.at, count, at.cell,
-                count == k_no_whole
+                count == k_no_whole && !is_whole(field.type)
                     ? "a count is no whole number"
                     : "count " + number(count) + (sum > 0 ? " after " + number(sum) : "") + " is above " + most_text});
     return std::nullopt;
@@ -169,10 +187,13 @@ class PackedReader final : public PartReader {
         reader.field(needed(part.lists.offset, part, "offset"), given.stride, part.pointer + "/offset")};
     offset_ = fields.front();
     end_ = end_field(reader, part, given.stride);
-    if (end_.empty()) needed(part.lists.counts, part, "counts or end");
+    if (end_.empty() && !part.lists.counts)
+      throw Error("", part.pointer,
+                  "has neither counts nor end, and layout '" + part.lists.layout + "' needs one of them");
     counts_ = count_fields(reader, part);
     fields.insert(fields.end(), counts_.begin(), counts_.end());
     fields.insert(fields.end(), end_.begin(), end_.end());
+    if (!end_.empty()) check_last_end(reader, part, rows_of_cells(part, shape), end_of(end_));
     rows_ = cell_rows(reader, part, rows_of_cells(part, shape), end_of(fields));
 
     const result::DumpEntries& entries = needed(part.lists.entries, part, "entries");
@@ -217,7 +238,7 @@ class PackedReader final : public PartReader {
       faults.add({&rows_.buffer(), rows_.byte_of(at.row) + field.at, end, at.cell, text});
       return std::nullopt;
     };
-    if (end == k_no_whole) return fault("an end is no whole number");
+    if (end == k_no_whole && !is_whole(field.type)) return fault("an end is no whole number");
     if (end < offset) return fault("end " + number(end) + " is before the offset " + number(offset));
     if ((end - offset) % offset_unit_ != 0)
       return fault("end " + number(end) + " is no multiple of " + number(offset_unit_) + " bytes behind the offset " +

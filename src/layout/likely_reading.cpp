@@ -62,7 +62,22 @@ bool swap_offset_and_count(DumpLists& lists, const std::string&) {
 bool set_offset_type(DumpLists& lists, const std::string& type) {
   if (!lists.offset || lists.offset->type == type) return false;
   lists.offset->type = type;
-  if (lists.end) lists.end->type = type;
+  return true;
+}
+
+bool set_end_type(DumpLists& lists, const std::string& type) {
+  if (!lists.end || lists.end->type == type) return false;
+  lists.end->type = type;
+  return true;
+}
+
+bool set_offset_and_end_type(DumpLists& lists, const std::string& type) {
+  return lists.end && set_offset_type(lists, type) && set_end_type(lists, type);
+}
+
+bool swap_offset_and_end(DumpLists& lists, const std::string&) {
+  if (!lists.offset || !lists.end) return false;
+  std::swap(*lists.offset, *lists.end);
   return true;
 }
 
@@ -142,10 +157,15 @@ std::vector<Change> changes() {
     all.push_back({std::string("entries as ") + type, set_entry_type, type});
   all.push_back({"the other unit of offsets (offset_is)", change_offset_unit});
   all.push_back({"offset and (first) count swapped", swap_offset_and_count});
+  all.push_back({"offset and end swapped", swap_offset_and_end});
   all.push_back({"the count as the end of the list (end)", take_count_for_end});
   all.push_back({"the end as a count of entries (counts)", take_end_for_count});
   for (const char* type : {"u16", "u8", "u32"}) all.push_back({std::string("counts as ") + type, set_count_type, type});
-  for (const char* type : {"u32", "u16"}) all.push_back({std::string("offsets as ") + type, set_offset_type, type});
+  for (const char* type : {"u32", "u16", "u8"}) all.push_back({std::string("ends as ") + type, set_end_type, type});
+  for (const char* type : {"u32", "u16"}) {
+    all.push_back({std::string("offsets as ") + type, set_offset_type, type});
+    all.push_back({std::string("offsets and ends as ") + type, set_offset_and_end_type, type});
+  }
   all.push_back({"the other meaning of the end of a range (ranges.last_is)", change_last});
   all.push_back({"first and last of ranges swapped", swap_first_and_last});
   for (const char* bytes : {"4", "8", "16"})

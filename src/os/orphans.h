@@ -22,5 +22,7 @@ class Orphans {
 std::vector<int> child_processes();
 // Of this process.
 int thread_count();
+// Those of them that run or wait for a processor, without the caller's; 0 where the system does not tell.
+int runnable_threads();
 
 }  // namespace clusterbench::os

@@ -43,6 +43,8 @@ std::string wanted(const Type& type, const Json& found) {
     case Kind::boolean:
       return "true or false";
     case Kind::integer:
+      if (type.is_unsigned && found.is_number() && found > type.largest)
+        return "a whole number from 0 to " + std::to_string(type.largest);
       if (type.is_unsigned) return "a whole number of at least 0";
       return found.is_number_integer()
                  ? "a whole number from " + std::to_string(type.least) + " to " + std::to_string(type.largest)

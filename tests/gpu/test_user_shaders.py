@@ -345,7 +345,7 @@ class Faults(unittest.TestCase):
             ({"lists__0__per_cell": "per_cell"}, "/lists/0/per_cell: 'per_cell' names 'per_cell'.*, allowed: "),
             ({"lists__0__per_cell": "cells *"}, "/lists/0/per_cell: .*ends where a number is missing"),
             ({"lists__0__layout": "packed"}, "/lists/0/offset: is missing: layout 'packed' needs it"),
-            ({"lists__0__counts__0__bits": [0, 33]}, r"/lists/0/counts/0/bits: is \[0,33\]; allowed: bits of the type, u32"),
+            ({"lists__0__counts__0__bits": [0, 33]}, r"/lists/0/counts/0/bits: is \[0,33\]; allowed: the first bit and how many, at least 1, within the 32 bits of u32"),
             ({"lists__0__counts__0__at": 798}, "/lists/0/counts/0/at: is 798: its 4 bytes end beyond the stride of 800"),
             ({"lists__0__rows__stride": 0}, "/lists/0/rows/stride: is 0; allowed: at least 1"),
             ({"lists__0__entries__at": 8}, "/lists/0/entries/at: is 8: 199 entries there end beyond the stride of 800"),

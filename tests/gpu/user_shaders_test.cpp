@@ -244,9 +244,11 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
   const std::tuple<std::vector<std::pair<const char*, const char*>>, const char*> rows[] = {
       {{{"/lists/0/layout", R"("linked")"}}, "/lists/0/head: is missing: layout 'linked' needs it"},
       {{{"/lists/0/layout", R"("bits_and_bins")"}}, "/lists/0/ranges: is missing"},
-      {{{"/lists/0/counts/0/bits", "[0, 33]"}}, "/lists/0/counts/0/bits: is [0,33]; allowed: bits of the type, u32"},
+      {{{"/lists/0/counts/0/bits", "[0, 33]"}},
+       "/lists/0/counts/0/bits: is [0,33]; allowed: the first bit and how many, at least 1, within the 32 bits of u32"},
       {{{"/lists/0/counts/0/at", "6"}}, "/lists/0/counts/0/at: is 6: its 4 bytes end beyond the stride of 8 bytes"},
       {{{"/lists/0/offset/at", "5"}}, "/lists/0/offset/at: is 5"},
+      {{{"/lists/0/end", R"({"at": 4, "type": "u32"})"}}, "/lists/0/end: does not go with counts"},
       {{{"/lists/0/rows/stride", "0"}}, "/lists/0/rows/stride: is 0; allowed: at least 1"},
       {{{"/buffers/indices/bytes", "64"}, {"/lists/0/entries/at", "64"}},
        "/lists/0/entries/at: is 64; buffer 'indices' has 64 bytes"},

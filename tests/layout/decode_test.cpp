@@ -160,12 +160,41 @@ TEST(Decode, an_end_that_cannot_be_right_is_named_with_its_byte) {
   put<std::uint32_t>(odd.buffers[0].bytes, 4, 3);
   EXPECT_EQ(decoded(odd, {Vec3i(1), {}, 10}).faults.first[0].message,
             "end 3 is no multiple of 2 bytes behind the offset 0");
-  Described short_of_one = begins(lists);
-  short_of_one.buffers[0].bytes.resize(4);
-  EXPECT_THROW(decoded(short_of_one, {Vec3i(1), {}, 10}), Error);
-  Described both = begins(lists);
-  both.lists.counts = {{0, "u32", {}}};
-  EXPECT_THROW(decoded(both, {Vec3i(1), {}, 10}), Error);
+}
+
+std::string refusal(const Described& described, const Shape& shape = {k_cells, {}, k_lights}) {
+  try {
+    decoded(described, shape);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(Decode, an_end_that_fits_no_row_is_refused_with_the_reason) {
+  const assign::Lists lists{{0, 2}, {3, 5}};
+  const std::pair<std::function<void(Described&)>, const char*> rows[] = {
+      {[](Described& d) { d.buffers[0].bytes.resize(4); },
+       "/lists/0/end: of the last cell would lie behind the end of buffer 'begins', in a row more than the 1 that its "
+       "4 "
+       "bytes hold"},
+      {[](Described& d) {
+         d.lists.counts = {{0, "u32", {}}};
+       },
+       "/lists/0/end: does not go with counts: either says how long a list is"},
+      {[](Described& d) { d.lists.end->at = 0; },
+       "/lists/0/end: is the field that `offset` is: all lists would be empty"},
+      {[](Described& d) { d.lists.end->at = 5; },
+       "/lists/0/end/at: is 5: its 4 bytes end beyond the next row; rows are 4 bytes apart"},
+      {[](Described& d) { d.lists.end->at = ~std::uint64_t{0}; },
+       "/lists/0/end/at: is 18446744073709551615: its 4 bytes end beyond the next row; rows are 4 bytes apart"},
+      {[](Described& d) { d.lists.end.reset(); },
+       "/lists/0: has neither counts nor end, and layout 'packed' needs one of them"}};
+  for (const auto& [change, wanted] : rows) {
+    Described described = begins(lists);
+    change(described);
+    EXPECT_EQ(refusal(described, {Vec3i(1), {}, 10}), wanted);
+  }
 }
 
 TEST(Decode, lights_that_are_twice_in_a_list_are_counted_and_named_with_their_bytes) {
@@ -226,15 +255,6 @@ TEST(Decode, bits_of_lights_that_do_not_exist_and_ranges_beyond_them_are_faults)
   EXPECT_EQ(faults.first[0].message, "the range of lights 3 to 11 is not below the 10 lights");
 }
 
-std::string refusal_of_bits(const Described& described) {
-  try {
-    decoded(described, {k_cells, {}, k_lights});
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
 TEST(Decode, bits_of_other_things_before_and_after_those_of_lights_are_passed_over) {
   const assign::Lists lists = random_lists(k_cells, k_lights, 0.3, 7);
   for (const std::uint32_t first : {0u, 5u, 32u, 61u}) {
@@ -257,9 +277,9 @@ TEST(Decode, bits_of_other_things_before_and_after_those_of_lights_are_passed_ov
     EXPECT_EQ(found.lists, lists) << first;
     EXPECT_EQ(found.faults.count, 0u);
     bits.lists.first_bit = 100;
-    EXPECT_EQ(refusal_of_bits(bits), "/lists/0/rows/stride: is 20; bits of 70 lights from bit 100 on take 24 bytes");
+    EXPECT_EQ(refusal(bits), "/lists/0/rows/stride: is 20; bits of 70 lights from bit 100 on take 24 bytes");
     bits.lists.first_bit = ~std::uint64_t{0};
-    EXPECT_NE(refusal_of_bits(bits), "");
+    EXPECT_NE(refusal(bits), "");
   }
 }
 
@@ -296,6 +316,12 @@ TEST(Decode, an_end_that_was_taken_for_a_count_is_the_likeliest_reading_and_the_
   result::DumpLists as_counts = ends.lists;
   as_counts.counts = {*std::exchange(as_counts.end, std::nullopt)};
   EXPECT_EQ(reading_of(ends, as_counts).find("with the count as the end of the list (end) all "), 0u);
+  result::DumpLists swapped = ends.lists;
+  std::swap(*swapped.offset, *swapped.end);
+  EXPECT_EQ(reading_of(ends, swapped).find("with offset and end swapped all "), 0u);
+  result::DumpLists other = ends.lists;
+  other.end->type = "f32";
+  EXPECT_EQ(reading_of(ends, other).find("with ends as u32 all "), 0u);
 
   Described counted = begins(lists);
   counted.lists.counts = {{4, "u32", {}}};

@@ -176,6 +176,15 @@ TEST(Table, numbers_and_words_agree) {
   EXPECT_NE(table.find("\n1 combination of grid, method and storage left out"), std::string::npos) << table;
 }
 
+TEST(Table, methods_that_cannot_run_here_are_told_however_many_other_combinations_are_left_out) {
+  run::Result result = result_by_hand();
+  for (const char* storage : {"packed", "fixed"})
+    result.skipped.push_back({std::string("hall/walk/16x9/mine/") + storage, "mine cannot run here: no driver", {}});
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("\n3 combinations of grid, method and storage left out"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nwarning: mine cannot run here: no driver (2 combinations)\n"), std::string::npos) << table;
+}
+
 TEST(Table, instructions_have_a_column_only_where_they_were_counted) {
   run::Result result = result_by_hand();
   EXPECT_EQ(table_of(result).find("instr"), std::string::npos);

@@ -126,7 +126,7 @@ class OfACapture(Folders):
         self.assertTrue(all(row["row"] == longest // 132 for row in lost["lost"]))
 
     def test_methods_of_ours_lose_none_in_their_captures(self):
-        for method in ("gpu-cells", "gpu-group", "gpu-lights"):
+        for method in ("gpu-cells", "gpu-group", "gpu-lights", "gpu-mask"):
             with self.subTest(method):
                 self.judge_captured(method)
 
@@ -138,8 +138,10 @@ class OfACapture(Folders):
              "--scheme", "exponential", "--set", "scenes.*.frames=1", "--no-timing", "--write-dump", folder],
             **lavapipe(), ENABLE_VULKAN_RENDERDOC_CAPTURE="1", RENDERDOC_CAPFILE=str(self.folder / f"{method}-gpu"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        # The last capture is of the shaders that ran last for the first time: those of the method. The ones before it are of probes.
-        capture = max(self.folder.glob(f"{method}-gpu*.rdc"), key=lambda path: path.stat().st_mtime_ns)
+        told = re.findall(r"RenderDoc's capture of (.+): (.+\.rdc)", done.stderr)
+        self.assertEqual({file for _, file in told}, {str(file) for file in self.folder.glob(f"{method}-gpu*.rdc")}, done.stderr)
+        shaders, capture = told[-1]  # those before are of probes
+        self.assertIn(method.removeprefix("gpu-"), shaders)
         listed = self.script(capture)
         self.assertEqual(listed.returncode, 0, listed.stderr)
         event = int(re.findall(r"event (\d+): vkCmdDispatch", listed.stdout)[-1])

@@ -18,6 +18,7 @@
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "gpu/device/device.h"
 #include "os/call_notes.h"
 #include "os/rereadable_inputs.h"
 #include "os/stop_signals.h"
@@ -87,6 +88,11 @@ void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
               "--plugin");
 }
 
+// Where RenderDoc is in this process.
+void tell_captures() {
+  for (const std::string& line : gpu::taken_captures()) print_message(printable(line));
+}
+
 ExitCode write_dumps_alone(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   warn_of_budgets(config);
   if (plan.shard && plan.case_count() == 0) {
@@ -95,6 +101,7 @@ ExitCode write_dumps_alone(const RunFlags& flags, const config::Config& config, 
     return ExitCode::ok;
   }
   const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+  tell_captures();
   for (const std::string& line : written.remarks) print_message(printable(line));
   if (!flags.quiet)
     print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
@@ -119,7 +126,9 @@ std::optional<ExitCode> run_part(const RunFlags& flags) {
   }
   if (!flags.dump_folder.empty()) return write_dumps_alone(flags, config, plan);
   if (!flags.baseline.binary.empty()) check_baseline(flags);
-  return measure(flags, config, plan, way, exports);
+  const std::optional<ExitCode> code = measure(flags, config, plan, way, exports);
+  tell_captures();
+  return code;
 }
 
 // A run of its own methods alone is one process. With plug-ins it is several, which share the inputs, and, without a

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 #include <set>
+#include <unordered_map>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -99,7 +100,7 @@ class Reader {
   Reader(const Json& root, const JsonText& text) : root_(root), text_(text) {}
 
   Json read(const Json& unresolved, const Json& value, const std::string& pointer) const {
-    const Json& schema = resolved(root_, unresolved);
+    const Json& schema = resolved(unresolved);
     if (const Json* choices = alternatives(schema)) return read_choice(schema, *choices, value, pointer);
     const std::vector<std::string> types = types_of(schema);
     const bool typed = std::any_of(types.begin(), types.end(), [&](const auto& type) { return has_type(type, value); });
@@ -112,6 +113,13 @@ class Reader {
   }
 
  private:
+  // The same as the function of that name, without looking a reference up twice.
+  const Json& resolved(const Json& schema) const {
+    const Json*& known = resolved_[&schema];
+    if (known == nullptr) known = &config::resolved(root_, schema);
+    return *known;
+  }
+
   [[noreturn]] void fail(const Json& schema, const Json& value, const std::string& pointer) const {
     throw Error(text_.file, text_.where(pointer),
                 "found " + found_text(value) + ", allowed: " + describe_allowed(root_, schema));
@@ -159,7 +167,7 @@ class Reader {
 
   // Whether the type of the value fits this schema.
   bool fits(const Json& unresolved, const Json& value) const {
-    const Json& schema = resolved(root_, unresolved);
+    const Json& schema = resolved(unresolved);
     if (const Json* choices = alternatives(schema))
       return std::any_of(choices->begin(), choices->end(), [&](const Json& choice) { return fits(choice, value); });
     if (schema.contains("const")) return value == schema["const"];
@@ -176,7 +184,7 @@ class Reader {
   Json read_choice(const Json& schema, const Json& choices, const Json& value, const std::string& pointer) const {
     std::vector<const Json*> fitting;
     for (const Json& choice : choices)
-      if (fits(choice, value)) fitting.push_back(&resolved(root_, choice));
+      if (fits(choice, value)) fitting.push_back(&resolved(choice));
     if (fitting.empty()) return read(nearest_choice(schema, choices, value, pointer), value, pointer);
     if (!value.is_object() || fitting.size() == 1) return read(*fitting.front(), value, pointer);
     return read_object(*variant_of(fitting, value, pointer), &choices, value, pointer);
@@ -186,7 +194,7 @@ class Reader {
   const Json& nearest_choice(const Json& schema, const Json& choices, const Json& value,
                              const std::string& pointer) const {
     for (const Json& choice : choices) {
-      const Json& variant = resolved(root_, choice);
+      const Json& variant = resolved(choice);
       if (value.is_array() && variant.value("type", Json()) == "array") return variant;
     }
     fail(schema, value, pointer);
@@ -224,7 +232,7 @@ class Reader {
     const std::set<std::string> selected = selection(schema, value, pointer);
     Json out = Json::object();
     for (const auto& [key, unresolved] : properties.items()) {
-      const Json& property = resolved(root_, unresolved);
+      const Json& property = resolved(unresolved);
       const std::string member = child_pointer(pointer, key);
       const bool used = is_used(unresolved, selected);
       if (value.contains(key)) {
@@ -239,14 +247,14 @@ class Reader {
   }
 
   void check_keys(const Json& schema, const Json& value, const std::string& pointer) const {
-    const std::vector<std::string> names = keys_of(schema);
-    for (const Json& key : schema.value("required", Json::array()))
-      if (!value.contains(key.get<std::string>()))
-        throw Error(text_.file, text_.where(pointer), "lacks the key " + quoted(key));
+    if (const auto required = schema.find("required"); required != schema.end())
+      for (const Json& key : *required)
+        if (!value.contains(key.get_ref<const std::string&>()))
+          throw Error(text_.file, text_.where(pointer), "lacks the key " + quoted(key));
     if (value.size() < schema.value("minProperties", std::size_t{0}) ||
         value.size() > schema.value("maxProperties", value.size()))
       throw Error(text_.file, text_.where(pointer),
-                  "found " + std::to_string(value.size()) + " keys, allowed: exactly one of " + joined(names));
+                  "found " + std::to_string(value.size()) + " keys, allowed: exactly one of " + joined(keys_of(schema)));
   }
 
   static std::vector<std::string> keys_of(const Json& schema) {
@@ -259,7 +267,7 @@ class Reader {
                                  const std::string& pointer) const {
     std::vector<std::string> owners;
     for (const Json& choice : siblings ? *siblings : Json::array()) {
-      const Json& variant = resolved(root_, choice);
+      const Json& variant = resolved(choice);
       if (variant.contains("properties") && variant["properties"].contains(key))
         owners.push_back(variant["properties"][tag_of(variant)]["const"].get<std::string>());
     }
@@ -300,6 +308,7 @@ class Reader {
 
   const Json& root_;
   const JsonText& text_;
+  mutable std::unordered_map<const Json*, const Json*> resolved_;
 };
 
 }  // namespace
@@ -322,6 +331,10 @@ std::string describe_allowed(const Json& root, const Json& unresolved) {
 
 Json read_by_schema(const Json& schema, const Json& value, const JsonText& text) {
   return Reader(schema, text).read(schema, value, "");
+}
+
+Json read_member_by_schema(const Json& schema, const std::string& key, const Json& value, const JsonText& text) {
+  return Reader(schema, text).read(schema["properties"][key], value, child_pointer("", key));
 }
 
 }  // namespace clusterbench::config

@@ -13,6 +13,10 @@ namespace clusterbench::config {
 // The value with every default filled in. Throws Error (text.file, "line:column /pointer") for the first error.
 nlohmann::json read_by_schema(const nlohmann::json& schema, const nlohmann::json& value, const JsonText& text);
 
+// The same for the member of that name alone.
+nlohmann::json read_member_by_schema(const nlohmann::json& schema, const std::string& key, const nlohmann::json& value,
+                                     const JsonText& text);
+
 // The values that a schema allows, for messages: "an integer from 1 to 4096".
 std::string describe_allowed(const nlohmann::json& root, const nlohmann::json& schema);
 

@@ -73,6 +73,9 @@ void use_robust_buffers();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();
 
+// A line for each capture that RenderDoc has made since the last call: of what, and its file.
+std::vector<std::string> taken_captures();
+
 // The buffers that kernels see, by binding. Memory is kept, and grows.
 class Buffers {
  public:
@@ -147,7 +150,7 @@ class Commands {
   std::unique_lock<std::recursive_mutex> turn_;
   std::uint32_t steps_ = 0;  // until the last barrier
   bool has_work_ = false;    // since then
-  bool has_new_shader_ = false;
+  std::vector<std::string> new_shaders_;
 };
 
 }  // namespace clusterbench::gpu

@@ -25,6 +25,10 @@ DeviceList list_devices() {
   return {{}, CLUSTERBENCH_GPU_OBSTACLE};
 }
 
+std::vector<std::string> taken_captures() {
+  return {};
+}
+
 Device::Device(const std::string&, const DeviceFacts*, bool) {
   refuse();
 }

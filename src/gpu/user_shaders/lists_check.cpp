@@ -24,8 +24,6 @@ std::uint64_t size_of_number(const Json& object) {
 }
 
 class ListPartCheck {
-  static constexpr std::uint64_t k_far = std::uint64_t{1} << 62;
-
  public:
   ListPartCheck(const Json& part, const result::DumpLists& lists, const BytesOfBuffer& bytes_of,
                 const std::string& where)
@@ -38,8 +36,7 @@ class ListPartCheck {
     if (lists_.nodes) check_rows("nodes");
     for (const char* key : {"offset", "head"})
       if (part_.contains(key)) check_field(part_[key], stride_of("rows"), where_ + "/" + key);
-    if (const std::optional<std::uint64_t> stride = stride_of("rows"); lists_.end)  // it may be the next cell's offset
-      check_field(part_["end"], stride && *stride < k_far ? 2 * *stride : stride, where_ + "/end");
+    if (lists_.end) check_end(part_["end"]);
     if (lists_.counts)
       for (std::size_t i = 0; i < part_["counts"].size(); ++i)
         check_field(part_["counts"][i], stride_of("rows"), where_ + "/counts/" + std::to_string(i));
@@ -63,7 +60,8 @@ class ListPartCheck {
     if (layout == "packed" || layout == "runs") {
       need(lists_.rows.has_value(), "rows");
       need(lists_.offset.has_value(), "offset");
-      need(lists_.counts.has_value() || lists_.end.has_value(), "counts or end");
+      if (!lists_.counts && !lists_.end)
+        refuse("", "has neither counts nor end, and layout '" + layout + "' needs one of them");
       if (lists_.counts && lists_.end) refuse("/end", "does not go with counts: either says how long a list is");
       need(lists_.entries.has_value(), "entries");
       need(lists_.entries->buffer.has_value(), "entries/buffer");
@@ -98,6 +96,17 @@ class ListPartCheck {
     refuse(key, "is " + std::to_string(*at) + "; buffer '" + buffer + "' has " + number_of(*bytes, "byte"));
   }
 
+  // It may lie in the next cell's row.
+  void check_end(const Json& end) const {
+    if (end == part_["offset"]) refuse("/end", "is the field that `offset` is: all lists would be empty");
+    const std::optional<std::uint64_t> at = number_at(end, "at"), stride = stride_of("rows");
+    const std::uint64_t size = size_of_number(end);
+    if (at && stride && *at > *stride && (*at - *stride > *stride || size > *stride - (*at - *stride)))
+      refuse("/end/at", "is " + std::to_string(*at) + ": its " + number_of(size, "byte") +
+                            " end beyond the next row; rows are " + number_of(*stride, "byte") + " apart");
+    if (end.contains("bits")) check_bits(end, 8 * size, where_ + "/end");
+  }
+
   static void check_field(const Json& field, std::optional<std::uint64_t> stride, const std::string& where) {
     const std::uint64_t size = size_of_number(field);
     const std::optional<std::uint64_t> at = number_at(field, "at");
@@ -114,9 +123,8 @@ class ListPartCheck {
     const bool fits = !is_known || (first.get<std::uint64_t>() < width && count.get<std::uint64_t>() >= 1 &&
                                     count.get<std::uint64_t>() <= width - first.get<std::uint64_t>());
     if (fits && type.front() != 'f') return;
-    throw Error(
-        "", where + "/bits",
-        "is " + field["bits"].dump() + "; allowed: bits of the type, " + type + ", which has to be a whole one");
+    throw Error("", where + "/bits",
+                "is " + field["bits"].dump() + "; " + layout::bits_allowed(layout::number_type(type)));
   }
 
   void check_entries() const {

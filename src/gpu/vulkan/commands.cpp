@@ -64,7 +64,7 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
   has_work_ = true;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
   const VkPipeline pipeline = device_.pipelines.at(kernel);
-  has_new_shader_ |= device_.run_before.insert(pipeline).second;
+  if (device_.run_before.insert(pipeline).second) new_shaders_.push_back(device_.name_of(kernel));
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
                      arguments.words.data());
@@ -77,7 +77,7 @@ void Commands::dispatch(const Program& program, std::span<const std::byte> argum
   if (groups[0] == 0 || groups[1] == 0 || groups[2] == 0) return;
   has_work_ = true;
   const Program::Impl& of = program.impl();
-  has_new_shader_ |= device_.run_before.insert(of.pipeline).second;
+  if (device_.run_before.insert(of.pipeline).second) new_shaders_.push_back(of.name);
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.pipeline);
   vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.layout, 0,
                           static_cast<std::uint32_t>(of.sets.size()), of.sets.data(), 0, nullptr);
@@ -138,7 +138,7 @@ void Commands::run() {
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &device_.commands;
-  const FrameCapture::Scope capture(device_.capture, has_new_shader_);
+  const FrameCapture::Scope capture(device_.capture, new_shaders_);
   check(vkQueueSubmit(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit");
   const VkResult waited = vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns);
   device_.is_stuck = waited == VK_TIMEOUT;

@@ -71,18 +71,23 @@ Device::Impl::~Impl() {
 
 void Device::Impl::create_device(std::uint32_t queue_family, bool has_robust_buffers) {
   ShaderFeatures optional(physical);
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  features13.maintenance4 = VK_TRUE;  // modules of SPIR-V 1.6 may name their group's size by constants
-  features13.subgroupSizeControl = features13.computeFullSubgroups = facts.has_full_subgroups ? VK_TRUE : VK_FALSE;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.features = optional.base.features;
   features.features.robustBufferAccess = has_robust_buffers && !facts.has_pipeline_robustness ? VK_TRUE : VK_FALSE;
-  features13.pNext = &optional.features11;
   features.pNext = &optional.features11;
-  if (facts.has_vulkan_1_3) features.pNext = &features13;
   std::vector<const char*> extensions;
+  VkPhysicalDeviceMaintenance4Features local_sizes{};
+  local_sizes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES;
+  local_sizes.maintenance4 = VK_TRUE;  // modules of SPIR-V 1.6 may name their group's size by constants
+  if (facts.has_vulkan_1_3) local_sizes.pNext = std::exchange(features.pNext, &local_sizes);
+  VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};
+  subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
+  subgroups.subgroupSizeControl = subgroups.computeFullSubgroups = VK_TRUE;
+  if (facts.has_full_subgroups) {
+    if (!facts.has_vulkan_1_3) extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+    subgroups.pNext = std::exchange(features.pNext, &subgroups);
+  }
   VkPhysicalDevicePipelineRobustnessFeaturesEXT robustness{};
   robustness.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT;
   robustness.pipelineRobustness = VK_TRUE;
@@ -218,10 +223,14 @@ VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_
   return pipeline;
 }
 
-std::vector<assign::ShaderStatistic> Device::Impl::statistics(Kernel kernel) const {
+std::string Device::Impl::name_of(Kernel kernel) const {
   const auto& [shader, group_size, mode] =
       std::ranges::find(kernels, kernel, [](const auto& entry) { return entry.second; })->first;
-  return statistics_of(pipelines.at(kernel), shader + (mode == 0 ? "" : ", mode " + std::to_string(mode)));
+  return shader + (mode == 0 ? "" : ", mode " + std::to_string(mode));
+}
+
+std::vector<assign::ShaderStatistic> Device::Impl::statistics(Kernel kernel) const {
+  return statistics_of(pipelines.at(kernel), name_of(kernel));
 }
 
 std::vector<assign::ShaderStatistic> Device::Impl::statistics_of(VkPipeline of, const std::string& shader) const {

@@ -32,6 +32,7 @@ struct Device::Impl {
   Memory allocate(std::uint64_t bytes, Place place) const;
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
+  std::string name_of(Kernel kernel) const;
   std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
   // Of a pipeline; `shader`: what the statistics are of.
   std::vector<assign::ShaderStatistic> statistics_of(VkPipeline pipeline, const std::string& shader) const;

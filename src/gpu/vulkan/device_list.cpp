@@ -48,17 +48,6 @@ std::uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& familie
   return family;
 }
 
-// Of Vulkan 1.3: a shader's subgroups can be asked to be full.
-bool has_full_subgroups(VkPhysicalDevice device) {
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &features13;
-  vkGetPhysicalDeviceFeatures2(device, &features);
-  return features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
-}
-
 std::string limit_obstacle(const VkPhysicalDeviceLimits& limits) {
   if (limits.maxPerStageDescriptorStorageBuffers < Buffers::k_bindings)
     return "lets a shader see " + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " buffers; " +
@@ -94,7 +83,12 @@ void add_extras(VkPhysicalDevice device, DeviceFacts& facts) {
   robustness.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT;
   if (has_extension(all, VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME))
     robustness.pNext = std::exchange(features.pNext, &robustness);
+  VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};  // of an extension, and a part of Vulkan 1.3
+  subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
+  if (facts.has_vulkan_1_3 || has_extension(all, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME))
+    subgroups.pNext = std::exchange(features.pNext, &subgroups);
   vkGetPhysicalDeviceFeatures2(device, &features);
+  facts.has_full_subgroups = subgroups.subgroupSizeControl != VK_FALSE && subgroups.computeFullSubgroups != VK_FALSE;
   facts.has_pipeline_robustness = robustness.pipelineRobustness != VK_FALSE;
   facts.has_shader_clock = clock.shaderSubgroupClock != VK_FALSE;
   facts.tells_shader_statistics = told.pipelineExecutableInfo != VK_FALSE;
@@ -146,7 +140,6 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
   facts.rounds_to_nearest =
       properties12.shaderRoundingModeRTEFloat32 != 0 && properties12.shaderSignedZeroInfNanPreserveFloat32 != 0;
-  facts.has_full_subgroups = facts.has_vulkan_1_3 && has_full_subgroups(device);
   const bool has_subgroups = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   const VkSubgroupFeatureFlags operations = has_subgroups ? properties11.subgroupSupportedOperations : 0;
   facts.has_ballots = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;

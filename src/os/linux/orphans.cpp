@@ -2,6 +2,7 @@
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <string>
 #include <thread>
 
 namespace clusterbench::os {
@@ -33,6 +35,19 @@ int thread_count() {
   std::error_code failed;
   return static_cast<int>(
       std::distance(std::filesystem::directory_iterator(k_tasks, failed), std::filesystem::directory_iterator()));
+}
+
+int runnable_threads() {
+  int count = 0;
+  std::error_code failed;
+  for (const std::filesystem::directory_entry& task : std::filesystem::directory_iterator(k_tasks, failed)) {
+    if (task.path().filename() == std::to_string(::gettid())) continue;
+    std::string stat;
+    std::getline(std::ifstream(task.path() / "stat"), stat);
+    const std::size_t name_end = stat.rfind(')');  // the state follows the name
+    if (name_end != std::string::npos && stat.substr(name_end, 3) == ") R") ++count;
+  }
+  return count;
 }
 
 Orphans::Orphans() {

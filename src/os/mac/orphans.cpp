@@ -29,6 +29,10 @@ int thread_count() {
   return static_cast<int>(count);
 }
 
+int runnable_threads() {
+  return 0;
+}
+
 Orphans::Orphans() : others_(child_processes()) {}
 
 int Orphans::end_all() const {

@@ -22,6 +22,10 @@ int thread_count() {
   return count;
 }
 
+int runnable_threads() {
+  return 0;
+}
+
 Orphans::Orphans() = default;
 
 int Orphans::end_all() const {

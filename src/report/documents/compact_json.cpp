@@ -11,10 +11,30 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t k_line_width = 120;
 
+// As dump() makes it; most texts need no escape, and most numbers are whole.
+void append_text(const std::string& text, std::string& out) {
+  const auto is_plain = [](char c) { return c >= ' ' && c < 0x7F && c != '"' && c != '\\'; };
+  if (std::ranges::all_of(text, is_plain))
+    out.append("\"").append(text).append("\"");
+  else
+    out += Json(text).dump();
+}
+
+void append_scalar(const Json& value, std::string& out) {
+  if (value.is_string())
+    append_text(value.get_ref<const std::string&>(), out);
+  else if (value.is_number_unsigned())
+    out += std::to_string(value.get<std::uint64_t>());
+  else if (value.is_null())
+    out += "null";
+  else
+    out += value.dump();
+}
+
 // The value in one line, with a space after commas and colons; false if it is longer than `room`.
 bool append_line(const Json& value, std::string& out, std::size_t room) {
   if (!value.is_structured()) {
-    out += value.dump();
+    append_scalar(value, out);
     return out.size() <= room;
   }
   const char* separator = "";
@@ -22,7 +42,10 @@ bool append_line(const Json& value, std::string& out, std::size_t room) {
   for (auto member = value.begin(); member != value.end(); ++member) {
     out += separator;
     separator = ", ";
-    if (value.is_object()) out += Json(member.key()).dump() + ": ";
+    if (value.is_object()) {
+      append_text(member.key(), out);
+      out += ": ";
+    }
     if (out.size() > room || !append_line(*member, out, room)) return false;
   }
   out += value.is_object() ? "}" : "]";
@@ -39,13 +62,7 @@ class Writer {
   std::string text;
 
   void append(const Json& value, std::size_t indent) {
-    if (!value.is_structured() || is_plain_list(value)) {
-      append_line(value, text, text.max_size());
-    } else if (const std::string line = short_line(value); !line.empty()) {
-      text += line;
-    } else {
-      append_members(value, indent);
-    }
+    if (!append_short(value)) append_long(value, indent);
   }
 
  private:
@@ -54,11 +71,19 @@ class Writer {
     return text.size() - (feed == std::string::npos ? 0 : feed + 1);
   }
 
-  // The value in one line if it fits into the rest of the line, with a comma; else "".
-  std::string short_line(const Json& value) const {
-    std::string line;
-    const std::size_t used = columns() + 1;
-    return used < k_line_width && append_line(value, line, k_line_width - used) ? line : "";
+  // The value in one line if it fits into the rest of the line, with a comma; else false, and nothing.
+  bool append_short(const Json& value) {
+    const std::size_t used = columns() + 1, begin = text.size();
+    if (used < k_line_width && append_line(value, text, begin + k_line_width - used)) return true;
+    text.resize(begin);
+    return false;
+  }
+
+  void append_long(const Json& value, std::size_t indent) {
+    if (!value.is_structured() || is_plain_list(value))
+      append_line(value, text, text.max_size());
+    else
+      append_members(value, indent);
   }
 
   // A short member of an object stays in the line of a short predecessor.
@@ -67,18 +92,21 @@ class Writer {
     bool is_line_open = false;
     for (auto member = value.begin(); member != value.end(); ++member) {
       if (member != value.begin()) text += ",";
-      const std::string key = value.is_object() ? Json(member.key()).dump() + ": " : "";
+      const std::size_t end_of_line = text.size();
       if (is_line_open) {
-        text += " " + key;
-        if (const std::string line = short_line(*member); !line.empty()) {
-          text += line;
-          continue;
-        }
-        text.resize(text.size() - key.size() - 1);
+        text += " ";
+        append_text(member.key(), text);
+        text += ": ";
+        if (append_short(*member)) continue;
+        text.resize(end_of_line);
       }
-      text += "\n" + std::string(indent + 1, ' ') + key;
-      const bool is_short = !short_line(*member).empty();
-      append(*member, indent + 1);
+      text += "\n" + std::string(indent + 1, ' ');
+      if (value.is_object()) {
+        append_text(member.key(), text);
+        text += ": ";
+      }
+      const bool is_short = append_short(*member);
+      if (!is_short) append_long(*member, indent + 1);
       is_line_open = value.is_object() && is_short;
     }
     text += "\n" + std::string(indent, ' ') + (value.is_object() ? "}" : "]");

@@ -376,7 +376,7 @@ std::string skipped_text(const std::vector<result::Skipped>& skipped) {
   }
   std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
   out += reasons.size() == 1 ? ": " + shown(*reasons.begin()) + ".\n"
-                             : ", since they do not go together (`skipped` in the result).\n";
+                             : ", since they do not go together (`skipped` in the result).\n" + unable_text(skipped);
   if (!takes_no_boxes) return out;
   std::vector<std::string> names;
   for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())

@@ -118,6 +118,19 @@ std::string machines_note(const result::Result& result) {
 
 }  // namespace
 
+std::string unable_text(const std::vector<result::Skipped>& skipped) {
+  std::vector<std::pair<std::string, std::size_t>> reasons;
+  for (const result::Skipped& one : skipped) {
+    if (one.reason.find(" cannot run here: ") == std::string::npos) continue;
+    const auto had = std::ranges::find(reasons, one.reason, &std::pair<std::string, std::size_t>::first);
+    ++(had == reasons.end() ? reasons.emplace_back(one.reason, 0) : *had).second;
+  }
+  std::string out;
+  for (const auto& [reason, count] : reasons)
+    out += "warning: " + shown(reason) + " (" + number_of(count, "combination") + ")\n";
+  return out;
+}
+
 std::string notes_text(const result::Result& result) {
   std::string out = shard_note(result) + machines_note(result);
   for (const Scene& scene : result.scenes) {

@@ -14,4 +14,7 @@ std::string notes_text(const result::Result& result);
 // lights). "" without any.
 std::string warnings_text(const result::Result& result);
 
+// Lines that begin with "warning: ": methods that cannot run on this machine, once for each reason. "" without any.
+std::string unable_text(const std::vector<result::Skipped>& skipped);
+
 }  // namespace clusterbench::report

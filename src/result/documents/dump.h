@@ -316,7 +316,7 @@ struct DumpLists {
         About("packed, runs, fixed: in the row; the length of the list is their sum").items(1, 16));
   FIELD(std::optional<DumpField>, end,
         "packed, runs: in place of counts, the entry behind the list's last; where it is the offset of the next cell, "
-        "`at` is as many bytes behind that of `offset` as rows are apart");
+        "`at` is as many bytes behind that of `offset` as rows are apart, and there is one row more than cells");
   FIELD(std::optional<DumpEntries>, entries, "packed, fixed, runs");
   FIELD(std::optional<std::uint64_t>, per_cell, About("fixed: entries for each cell").at_least(1));
   FIELD(std::optional<std::string>, word,
