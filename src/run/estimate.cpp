@@ -25,12 +25,11 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of all frames on config.threads threads, estimated from one frame on one thread:
+// Truth, lists, samples and buffers of all frames on `threads` threads, estimated from one frame on config.threads:
 // the second of two, since memory grows in the first. Depths are cast once for all groups, so their time is not counted
 // again for other groups.
-double counting_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
-                   int frames) {
-  const int threads = std::min(std::exchange(config.threads, 1), processors());
+double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
+                   int frames, int threads) {
   const std::atomic<bool> stop{false};
   double start = 0.0;
   const PathFrames two = path.only({path.count() / 3, 2 * path.count() / 3});
@@ -119,15 +118,17 @@ double reading_ns(const config::Config& config, const GroupPlan& group, const Pa
          (k_host_ns + k_cold_and_warm_with_exact * config.reading->rounds * device_ns);
 }
 
-GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
-                        const EstimateLimits& limits) {
+// `config`: with one thread; `threads`: that the run has.
+GroupCost cost_of_group(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
+                        double sweep_ns, const EstimateLimits& limits) {
   if (runs_elsewhere(config, group)) {
     os::note_group(group.cases.front().id);
     os::note_pass("estimate of the duration");
   }
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
-  GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps)};
+  GroupCost cost{.counting_ns =
+                     counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps, threads)};
   const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   const GroupPlan on_device = device_cases(config, group);
@@ -137,14 +138,14 @@ GroupCost cost_of_group(const config::Config& config, const Plan& plan, const Gr
 }
 
 // If a device fails, that of the cases without one; if a plug-in does, none: the run itself says what has failed.
-GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
-                            const EstimateLimits& limits) {
+GroupCost cost_of_what_runs(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
+                            double sweep_ns, const EstimateLimits& limits) {
   try {
-    return cost_of_group(config, plan, group, sweep_ns, limits);
+    return cost_of_group(config, threads, plan, group, sweep_ns, limits);
   } catch (const gpu::DeviceError&) {
     gpu::close_device();
     const GroupPlan others = processor_cases(config, group);
-    return others.cases.empty() ? GroupCost{} : cost_of_group(config, plan, others, sweep_ns, limits);
+    return others.cases.empty() ? GroupCost{} : cost_of_group(config, threads, plan, others, sweep_ns, limits);
   } catch (const assign::MethodError&) {
     return {};
   }
@@ -178,13 +179,16 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::vector<double> counting, timing, on_device, reading;
   const std::size_t at_once = sampled_at_once(config, plan);
   ThreadPool pool(static_cast<int>(at_once));
+  config::Config on_one_thread = config;
+  on_one_thread.threads = 1;
+  const int threads = std::min(config.threads, processors());
   for (const double start = wall_ns();
        sampled < groups && !is_enough(1e-9 * (wall_ns() - start), limits, counting, groups);) {
     const std::size_t first = sampled;
     sampled = std::min(groups, first + at_once);
     each_in_order(pool, sampled - first, [&](std::size_t i) {
       const std::size_t index = (first + i) * stride % groups;
-      costs[index] = cost_of_what_runs(config, plan, plan.groups[index], sweep_ns, limits);
+      costs[index] = cost_of_what_runs(on_one_thread, threads, plan, plan.groups[index], sweep_ns, limits);
     });
     for (std::size_t i = first; i < sampled; ++i) {
       const GroupCost& cost = costs[i * stride % groups];

@@ -39,6 +39,15 @@ std::uint64_t pairs_lost(const CaseResult& result) {
   return result.error ? result.error->false_negatives - pairs_culled(result) : 0;
 }
 
+// Where most pairs of a shader of the user's own are lost, its description is the likelier fault.
+std::string description_text(const CaseResult& result) {
+  const measure::ErrorCounts& error = *result.error;
+  const assign::AssignerDescriptor* method = assign::find_assigner(result.assigner);
+  if (method == nullptr || !method->origin || !method->on_device || 2 * error.false_negatives < error.true_pairs)
+    return "";
+  return "; --write-dump FOLDER and `clusterbench check FOLDER` find out whether another description fits better";
+}
+
 std::string lost_text(const CaseResult& result) {
   const measure::ErrorCounts& error = *result.error;
   const std::uint64_t culled = pairs_culled(result);
@@ -52,7 +61,7 @@ std::string lost_text(const CaseResult& result) {
   return text + "; deepest in frame " + std::to_string(deepest.frame) + ", cell [" + std::to_string(deepest.cell % nx) +
          "," + std::to_string(deepest.cell / nx % ny) + "," + std::to_string(deepest.cell / nx / ny) + "], light " +
          std::to_string(deepest.light) + " ('" + result.deepest_miss_light + "'), " + percent(error.deepest_miss) +
-         " of its range inside";
+         " of its range inside" + description_text(result);
 }
 
 std::string worst_text(const CaseResult& result) {

@@ -11,6 +11,7 @@
 #include "depth/shadow_map.h"
 #include "measure/shadows/shadow_cull.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 
