@@ -73,7 +73,7 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   Config config;
   config.file = text.file;
   config.preset_grid = preset_grid;
-  config.text = text;
+  config.text = {text.file, nullptr, text.places, text.flags};
   config.resolved = filled(text);
   config.resolved.erase("$schema");
   const Json& document = config.resolved;
@@ -123,13 +123,13 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
   unset.add_to(as_written.value);
-  Config config = read_config(as_written, flags.empty() ? preset_grid : GridChange{});
-  if (flags.empty()) return config;
-  Json document = config.resolved;
+  if (flags.empty()) return read_config(as_written, preset_grid);
+  Json document = filled(as_written);
   if (!document.contains("grids")) {
+    const Json presets = document["presets"];
     text.value.erase("presets");
     document = filled(text);
-    document["presets"] = config.resolved["presets"];
+    document["presets"] = presets;
   }
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
   check_grids_of_flags(changed.value.contains("presets"), names_own, flags);
@@ -139,7 +139,12 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
     const Json whole = filled(changed)["grids"], usable = usable_default_grids(whole);
     if (usable != whole) changed.value["grids"] = usable;
   }
-  return read_config(changed, preset_grid);
+  try {
+    return read_config(changed, preset_grid);
+  } catch (const Error&) {
+    read_config(as_written, {});  // a fault of the file has its place there, whatever flags have changed
+    throw;
+  }
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ struct Config : Sections {
 
   nlohmann::json resolved;  // the configuration with all defaults, as in the result
   GridChange preset_grid;   // members that replace those of presets' grids
-  JsonText text;            // as read, with positions for messages
+  JsonText text;            // positions for messages, without the value
 };
 
 // Applies a merge patch (RFC 7396) to the configuration's keys and reads it again, so that all fields follow from its

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <regex>
+#include <set>
 
 #include "config/config_plugins.h"
 #include "config/config_shaders.h"
@@ -424,9 +425,10 @@ void keep_one_of_each_kind(Json& grids) {
 // Grids can be equal after a flag has set the key in which they differed.
 void drop_repeated(Json& list) {
   Json once = Json::array();
-  for (const Json& entry : list)
-    if (std::find(once.begin(), once.end(), entry) == once.end()) once.push_back(entry);
-  list = once;
+  std::set<Json> earlier;
+  for (Json& entry : list)
+    if (earlier.insert(entry).second) once.push_back(std::move(entry));
+  list = std::move(once);
 }
 
 }  // namespace

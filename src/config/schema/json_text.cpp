@@ -33,7 +33,7 @@ std::string to_text(TextPosition position, const std::string& pointer) {
 // Scans text that the parser has accepted, which limits its depth, and records positions.
 class Scanner {
  public:
-  Scanner(std::string_view text, JsonText& out) : text_(text), out_(out) {
+  Scanner(std::string_view text, const std::string& file, TextPlaces& out) : text_(text), file_(file), out_(out) {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
   }
 
@@ -90,7 +90,7 @@ class Scanner {
       const std::string member = child_pointer(pointer, key);
       const auto [earlier, is_new] = out_.keys.emplace(member, key_position);
       if (!is_new) {
-        throw Error(out_.file, to_text(key_position, member),
+        throw Error(file_, to_text(key_position, member),
                     "duplicate key '" + key + "'; the first one is at " + std::to_string(earlier->second.line) + ":" +
                         std::to_string(earlier->second.column));
       }
@@ -118,7 +118,8 @@ class Scanner {
   }
 
   std::string_view text_;
-  JsonText& out_;
+  const std::string& file_;
+  TextPlaces& out_;
   std::size_t at_ = 0, counted_ = 0;
   TextPosition position_;
 };
@@ -134,9 +135,14 @@ nlohmann::json parsed(const std::string& text, const std::string& file) {
 }  // namespace
 
 std::string child_pointer(const std::string& pointer, const std::string& key) {
-  std::string escaped;
-  for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return pointer + "/" + escaped;
+  std::string out = pointer + "/";
+  for (const char c : key) {
+    if (c == '~' || c == '/')
+      out += c == '~' ? "~0" : "~1";
+    else
+      out += c;
+  }
+  return out;
 }
 
 std::string child_pointer(const std::string& pointer, std::size_t index) {
@@ -145,9 +151,8 @@ std::string child_pointer(const std::string& pointer, std::size_t index) {
 
 std::string JsonText::where(std::string pointer) const {
   if (!flags.empty()) return flag_of(pointer) + " " + pointer;
-  while (!values.contains(pointer) && !pointer.empty()) pointer.resize(pointer.rfind('/'));
-  const auto found = values.find(pointer);
-  return to_text(found == values.end() ? TextPosition{} : found->second, pointer);
+  while (!has(pointer) && !pointer.empty()) pointer.resize(pointer.rfind('/'));
+  return to_text(has(pointer) ? places->values.at(pointer) : TextPosition{}, pointer);
 }
 
 std::string JsonText::flag_of(std::string pointer) const {
@@ -159,15 +164,17 @@ std::string JsonText::flag_of(std::string pointer) const {
 }
 
 std::string JsonText::where_key(const std::string& pointer) const {
-  const auto found = keys.find(pointer);
-  return found == keys.end() ? where(pointer) : to_text(found->second, pointer);
+  const bool is_there = places && places->keys.contains(pointer);
+  return is_there ? to_text(places->keys.at(pointer), pointer) : where(pointer);
 }
 
 JsonText parse_json_text(const std::string& text, const std::string& file) {
   JsonText out;
   out.file = file;
   out.value = parsed(text, file);
-  Scanner(text, out).value("");
+  const auto places = std::make_shared<TextPlaces>();
+  Scanner(text, file, *places).value("");
+  out.places = places;
   return out;
 }
 

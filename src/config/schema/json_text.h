@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,15 +16,19 @@ struct TextPosition {
   friend bool operator==(const TextPosition&, const TextPosition&) = default;
 };
 
+struct TextPlaces {
+  std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> position of its key
+  std::map<std::string, TextPosition> values;  // JSON pointer -> start of its value; "" is the whole document
+};
+
 struct JsonText {
   std::string file;  // for messages
   nlohmann::json value;
-  std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> position of its key
-  std::map<std::string, TextPosition> values;  // JSON pointer -> start of its value; "" is the whole document
+  std::shared_ptr<const TextPlaces> places;  // null: without positions
   // JSON pointer -> the command line's flag that set it; without positions
   std::map<std::string, std::string> flags;
 
-  bool has(const std::string& pointer) const { return values.contains(pointer); }
+  bool has(const std::string& pointer) const { return places && places->values.contains(pointer); }
   // "line:column /pointer" of the value, or of the nearest enclosing value that the text has. For text changed by
   // flags: "--flag=value /pointer" of the flag that set it, or of all flags.
   std::string where(std::string pointer) const;

@@ -253,8 +253,9 @@ class Reader {
           throw Error(text_.file, text_.where(pointer), "lacks the key " + quoted(key));
     if (value.size() < schema.value("minProperties", std::size_t{0}) ||
         value.size() > schema.value("maxProperties", value.size()))
-      throw Error(text_.file, text_.where(pointer),
-                  "found " + std::to_string(value.size()) + " keys, allowed: exactly one of " + joined(keys_of(schema)));
+      throw Error(
+          text_.file, text_.where(pointer),
+          "found " + std::to_string(value.size()) + " keys, allowed: exactly one of " + joined(keys_of(schema)));
   }
 
   static std::vector<std::string> keys_of(const Json& schema) {
