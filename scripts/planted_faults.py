@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 SCENES = ["street", "hall-512", "rooms"]
-LAYOUTS = ["packed", "fixed", "bits", "linked", "runs"]
+LAYOUTS = ["packed", "fixed", "bits", "linked", "runs", "ends"]
 MARKS = ("<!-- planted faults -->", "<!-- end of planted faults -->")
 
 
@@ -138,7 +138,18 @@ def runs(lists, lights):
     return {"cells": u32(rows), "indices": u32(entries)}, given
 
 
-WRITERS = {"packed": packed, "fixed": fixed, "bits": bits, "linked": linked, "runs": runs}
+def ends(lists, lights):
+    """As packed, with the offset of the next cell as the end of a list."""
+    begins = [0]
+    for cell in lists:
+        begins.append(begins[-1] + len(cell))
+    buffers, given = packed(lists, lights)
+    given["rows"]["stride"] = 4
+    given["end"] = given.pop("counts")[0]
+    return {**buffers, "cells": u32(begins)}, given
+
+
+WRITERS = {"packed": packed, "fixed": fixed, "bits": bits, "linked": linked, "runs": runs, "ends": ends}
 
 
 class Planted:
@@ -307,6 +318,31 @@ def inverse_matrix(frame, layout):
     return planted
 
 
+def lights_in_view_space(frame, layout):
+    planted = Planted(frame, layout, frame.lists)
+    m = planted.dump["camera"]["view_to_world"]
+    lights = bytearray(planted.files["lights"])
+    for row in range(0, len(lights), 64):
+        for at, origin in ((0, m[12:15]), (32, [0, 0, 0])):  # position and direction
+            away = [number - begin for number, begin in zip(struct.unpack_from("<3d", lights, row + at), origin)]
+            turned = [sum(away[i] * m[4 * axis + i] for i in range(3)) for axis in range(3)]
+            struct.pack_into("<3d", lights, row + at, *turned)
+    planted.files["lights"] = bytes(lights)
+    planted.wanted = {"camera": "lights.space 'view'", "lost_pairs": 0}
+    return planted
+
+
+def lists_cut(frame, layout):
+    most = max(map(len, frame.lists)) // 2
+    return changed(frame, layout, lambda lists: [cell[:most] for cell in lists])
+
+
+def tells_the_limit(planted, found, done):
+    error = found["error"]
+    is_counted = error["lost_in_longest_lists"] == error["lost_pairs"] == planted.lost() > 0
+    return found["verdict"] == "lost" and is_counted and "does the engine take no more lights for a cell?" in done.stdout
+
+
 def with_ranges(frame, layout, change, wanted):
     planted = Planted(frame, layout, frame.lists)
     lights = bytearray(planted.files["lights"])
@@ -327,7 +363,7 @@ def diameters(frame, layout):
 
 
 def wrong_width(frame, layout):
-    if layout not in ("packed", "fixed", "runs"):
+    if layout not in ("packed", "fixed", "runs", "ends"):
         return None
     planted = Planted(frame, layout, frame.lists)
     planted.part()["entries"]["type"] = "u16"
@@ -340,10 +376,24 @@ def names_the_width(planted, found, done):
     return found["verdict"] == "misread" and found["other_reading"]["lists"] == "entries as u32"
 
 
+def count_taken_for_end(frame, layout):
+    if layout != "packed":
+        return None
+    planted = Planted(frame, layout, frame.lists)
+    planted.part()["end"] = planted.part().pop("counts")[0]
+    planted.reading = "the end as a count of entries (counts)"
+    return planted
+
+
+def names_the_reading(planted, found, done):
+    likely, other = found["reading"]["likely_reading"] or "", found["other_reading"]
+    return planted.reading in likely or (other is not None and other["lists"] == planted.reading)
+
+
 def offset_off_by_one(frame, layout):
     planted = Planted(frame, layout, frame.lists)
-    if layout in ("packed", "runs"):
-        stride = 4 if layout == "packed" else 8
+    if layout in ("packed", "runs", "ends"):
+        stride = 8 if layout == "runs" else 4
         planted.files["indices"] += bytes(stride)
         planted.part()["entries"]["at"] = stride
     elif layout == "fixed":
@@ -406,9 +456,12 @@ FAULTS = [
     ("rows counted from the bottom, of loose lists", rows_upside_down_in_loose_lists, is_other_reading),
     ("x axis mirrored, of loose lists", mirrored_in_loose_lists, is_other_reading),
     ("the inverse of the view matrix", inverse_matrix, is_other_reading),
+    ("lights in view space called those of the world", lights_in_view_space, is_other_reading),
+    ("half as many lights for a cell at most as are in the longest list", lists_cut, tells_the_limit),
     ("squares of ranges read as ranges", ranges_squared, is_other_reading),
     ("diameters read as ranges", diameters, is_other_reading),
     ("indices of 32 bits read as 16", wrong_width, names_the_width),
+    ("counts read as ends of lists", count_taken_for_end, names_the_reading),
     ("lists begin one entry too late", offset_off_by_one, is_not_right),
     ("a buffer cut off", buffer_truncated, names_the_buffer),
     ("a light twice in a list", light_twice, names_the_light_that_is_twice),

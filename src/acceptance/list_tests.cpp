@@ -1,6 +1,8 @@
 // What lists say, and that they depend on a frame and its grid alone.
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "acceptance/acceptance_test.h"
@@ -27,7 +29,8 @@ void compare_with_truth(const Subject& subject, const SubjectFrame& frame, const
 }
 
 void list_every_kind(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 8);
+  std::vector<SubjectFrame> frames = ordinary_frames(subject);
+  std::ranges::move(frames_for(subject, 8), std::back_inserter(frames));
   for (const grid::Kind kind : subject.method->descriptor.kinds)
     if (std::ranges::none_of(frames, [&](const SubjectFrame& frame) { return frame.grid.kind() == kind; }))
       findings.skipped = std::string("no setting was found on a grid of kind ") + grid::kind_name(kind);

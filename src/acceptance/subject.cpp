@@ -14,6 +14,38 @@ namespace {
 constexpr std::uint64_t k_most_pairs = 1u << 20;
 constexpr std::uint64_t k_most_seeds = 1000;
 
+// The frame of a trial; none where frame_of_seed() has none.
+std::optional<SubjectFrame> frame_of_trial(const Subject& subject, const stress::Trial& trial, std::string label) {
+  const stress::StressMethod method = subject.with_defaults();
+  if (!stress::supports_trial(method, trial)) return {};
+  SubjectFrame out;
+  out.label = std::move(label);
+  try {
+    out.frame = stress::frame_of(trial);
+    out.grid = stress::grid_of(trial, out.frame);
+  } catch (const Error&) {
+    return {};
+  }
+  out.lights = view::lights_in(out.frame, grid::space_of(out.grid, out.frame));
+  out.depths = stress::depths_for(*method.assigner, out.frame);
+  if (out.frame.lights.empty() || std::uint64_t{out.grid.cell_count()} * out.lights.size() > k_most_pairs) return {};
+  return out;
+}
+
+// As levels have: lights of some metres, most of them in view, and none on the edge of a cell.
+stress::Rig ordinary_rig(std::uint64_t seed, bool has_spots) {
+  SplitMix64 random(seed);
+  const auto place = [&random] {
+    return Vec3d(random.between(-25.0, 25.0), random.between(-8.0, 8.0), random.between(-60.0, 5.0));
+  };
+  stress::Rig rig;
+  for (int i = 0; i < 64; ++i) rig.point(place(), random.between(1.0, 9.0));
+  for (int i = 0; has_spots && i < 32; ++i)
+    rig.spot(place(), {random.between(-1.0, 1.0), -1.0, random.between(-1.0, 1.0)}, random.between(2.0, 15.0),
+             random.between(0.2, 0.8));
+  return rig;
+}
+
 }  // namespace
 
 std::vector<stress::StressMethod> Subject::with_every_choice() const {
@@ -29,21 +61,19 @@ stress::StressMethod Subject::with_defaults() const {
 }
 
 std::optional<SubjectFrame> frame_of_seed(const Subject& subject, std::uint64_t seed) {
-  const stress::StressMethod method = subject.with_defaults();
   const stress::Trial trial = stress::random_setting(seed);
-  if (!stress::supports_trial(method, trial)) return {};
-  SubjectFrame out;
-  out.label = "seed " + std::to_string(seed) + ", " + trial.grid.name();
-  try {
-    out.frame = stress::frame_of(trial);
-    out.grid = stress::grid_of(trial, out.frame);
-  } catch (const Error&) {
-    return {};
+  return frame_of_trial(subject, trial, "seed " + std::to_string(seed) + ", " + trial.grid.name());
+}
+
+std::vector<SubjectFrame> ordinary_frames(const Subject& subject) {
+  std::vector<SubjectFrame> frames;
+  for (const bool has_spots : {true, false}) {
+    const stress::Rig rig = ordinary_rig(subject.seed, has_spots);
+    for (const grid::GridSpec& grid : stress::grids_of_every_kind())
+      if (std::optional<SubjectFrame> frame = frame_of_trial(subject, rig.on(grid), "an ordinary view, " + grid.name()))
+        frames.push_back(std::move(*frame));
   }
-  out.lights = view::lights_in(out.frame, grid::space_of(out.grid, out.frame));
-  out.depths = stress::depths_for(*method.assigner, out.frame);
-  if (out.frame.lights.empty() || std::uint64_t{out.grid.cell_count()} * out.lights.size() > k_most_pairs) return {};
-  return out;
+  return frames;
 }
 
 std::vector<SubjectFrame> frames_for(const Subject& subject, int per_kind) {

@@ -56,6 +56,9 @@ struct SubjectFrame {
 // The frame of a random setting; none if the method does not support it, if its grid is impossible, or if it has more
 // than a million cells x lights.
 std::optional<SubjectFrame> frame_of_seed(const Subject& subject, std::uint64_t seed);
+// Frames as levels have them, on each kind of grid that the method supports: with points and spots, and with points
+// alone.
+std::vector<SubjectFrame> ordinary_frames(const Subject& subject);
 // Frames of random settings that the method supports, `per_kind` for each kind of its grids; fewer where a thousand
 // seeds have no more.
 std::vector<SubjectFrame> frames_for(const Subject& subject, int per_kind);

@@ -86,6 +86,14 @@ std::string other_text(const result::CheckedSet& set) {
          number(set.error->lost_pairs) + ".\n";
 }
 
+// Lists of any length that lose lights nearly alone where they are longest.
+bool seems_limited(const result::ListErrors& error) {
+  constexpr std::uint64_t k_fewest = 10;
+  constexpr double k_share = 0.9;
+  return error.lost_pairs >= k_fewest &&
+         static_cast<double>(error.lost_in_longest_lists) >= k_share * static_cast<double>(error.lost_pairs);
+}
+
 std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_world, const std::string& counting) {
   std::string out;
   const std::size_t shown = std::min(most, set.lost.size());
@@ -101,6 +109,10 @@ std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_w
   if (set.error->lost_in_full_lists > 0)
     out += "    " + number(set.error->lost_in_full_lists) + " of " + number(set.error->lost_pairs) +
            " lost in cells whose list is full (lists[].per_cell): there was no room for more lights\n";
+  else if (seems_limited(*set.error))
+    out += "    " + number(set.error->lost_in_longest_lists) + " of " + number(set.error->lost_pairs) +
+           " lost in cells whose list is as long as the longest, " + number(set.longest_list) +
+           ": does the engine take no more lights for a cell?\n";
   return out;
 }
 
@@ -113,7 +125,7 @@ std::string errors_text(const result::CheckedSet& set) {
                   100.0 * static_cast<double>(error.false_positives) / static_cast<double>(error.true_pairs));
   if (error.undecided > 0) out += "; " + number(error.undecided) + " undecided";
   if (!set.other_reading && error.false_positives > error.listed_pairs / 2)
-    out += "; are camera, ranges and cones described rightly?";
+    out += "; are camera, lights.space, grid.slices, ranges and cones described rightly?";
   return out + "\n";
 }
 

@@ -53,8 +53,9 @@ void mirror_cells(result::DumpGrid& grid) {
   grid.first_slice = grid.first_slice.value_or("near") == "far" ? "near" : "far";
 }
 
-view::Frame matrix_frame(const DumpFile& dump, const result::DumpCamera& given_camera, bool& is_world_mirrored) {
-  const Camera camera = camera_of(given_camera, dump.record.lights.space.value_or("world") == "view");
+view::Frame matrix_frame(const DumpFile& dump, const result::DumpCamera& given_camera, bool are_lights_in_view_space,
+                         bool& is_world_mirrored) {
+  const Camera camera = camera_of(given_camera, are_lights_in_view_space);
   view::Frame frame;
   frame.viewport = viewport_of(dump.record);
   frame.projection = camera.projection;
@@ -88,24 +89,25 @@ std::string kinds_of(const result::DumpLights& given) {
   return kinds.empty() ? "none" : joined(kinds, " and ");
 }
 
-DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera) {
+DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera, bool are_lights_in_view_space) {
   const result::DumpLights& given = dump.record.lights;
   const bool of_scene = given.scene.value_or(false), has_scene = !has_matrices(camera);
   if (of_scene + given.rows.has_value() + given.listed.has_value() != 1)
     throw Error("", "/lights", "has " + kinds_of(given) + "; allowed: one of rows, listed and scene");
   if (of_scene && !has_scene) throw Error("", "/lights/scene", "is true, and the camera names no scene");
-  if (has_scene && given.space.value_or("world") == "view")
+  if (has_scene && are_lights_in_view_space)
     throw Error("", "/lights/space", "is view; beside the camera of a scene lights are in the world");
   DumpFrame out;
   bool is_world_mirrored = false;
-  out.frame = has_scene ? scene_frame(dump, camera) : matrix_frame(dump, camera, is_world_mirrored);
+  out.frame =
+      has_scene ? scene_frame(dump, camera) : matrix_frame(dump, camera, are_lights_in_view_space, is_world_mirrored);
   std::vector<scene::WorldLight> lights = of_scene ? out.frame.lights : lights_of(dump);
   if (lights.empty()) throw Error("", "/lights", "are none, so there is nothing to check");
   if (is_world_mirrored) std::ranges::for_each(lights, mirror);
   take_lights(out, lights);
   result::DumpGrid grid = dump.record.grid;
   const bool is_world = grid.kind.value_or("frustum") == "world";
-  if (is_world && given.space.value_or("world") == "view")
+  if (is_world && are_lights_in_view_space)
     throw Error("", "/lights/space", "is view; a world grid needs lights in the world");
   out.has_mirrored_cells = is_world && is_world_mirrored;
   if (out.has_mirrored_cells) mirror_cells(grid);
@@ -126,9 +128,17 @@ DumpFrame frame_of(const DumpFile& dump) {
   return frame_of(dump, dump.record.camera);
 }
 
+bool has_lights_in_view_space(const DumpFile& dump) {
+  return dump.record.lights.space.value_or("world") == "view";
+}
+
 DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera) {
+  return frame_of(dump, camera, has_lights_in_view_space(dump));
+}
+
+DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera, bool are_lights_in_view_space) {
   try {
-    return made_frame(dump, camera);
+    return made_frame(dump, camera, are_lights_in_view_space);
   } catch (const Error& error) {
     if (!error.file().empty()) throw;
     throw Error(dump.path.string(), error.where(), error.message(), error.code());

@@ -33,8 +33,10 @@ struct DumpFrame {
 // Throws Error (file, JSON pointer or byte) for whatever makes no frame: NaN in a light, a singular matrix, slices that
 // do not ascend.
 DumpFrame frame_of(const DumpFile& dump);
-// With another camera.
+bool has_lights_in_view_space(const DumpFile& dump);
+// With another camera, and with lights in another space.
 DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera);
+DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera, bool are_lights_in_view_space);
 
 layout::CellOrder order_of(const result::DumpGrid& grid);
 

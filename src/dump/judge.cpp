@@ -78,7 +78,10 @@ class SetJudge {
     const LostLights lost = find_lost(frame_.frame, frame_.grid, truth_.lists, listed,
                                       {dump_.record.rounding.value_or(k_default_rounding), metres_per_unit_});
     add_errors(lost, out);
-    if (lost.lost_pairs > 0) out.error->lost_in_full_lists = count_lost_in(truth_.lists, listed, full_cells(set));
+    if (lost.lost_pairs > 0) {
+      out.error->lost_in_full_lists = count_lost_in(truth_.lists, listed, full_cells(set));
+      out.error->lost_in_longest_lists = count_lost_in(truth_.lists, listed, cells_with(listed, out.longest_list));
+    }
     if (page_ != nullptr) page_->sets.back() = page_set(set.name, frame_, truth_.lists, listed, lost, *page_room_);
     const bool is_beyond = lost.lost_pairs > lost.within_rounding;
     out.verdict = is_beyond                  ? "lost"
@@ -124,10 +127,14 @@ class SetJudge {
     return out;
   }
 
-  // Of a light whose range has no end: not finite.
-  double reach_mm(const LostPair& pair) const {
-    return 1000.0 * metres_per_unit_ * pair.reach * frame_.frame.lights[pair.light].range_m;
+  static std::vector<bool> cells_with(const assign::Lists& listed, std::uint64_t lights) {
+    std::vector<bool> out(listed.cell_count());
+    for (std::uint32_t cell = 0; cell < listed.cell_count(); ++cell) out[cell] = listed.of(cell).size() == lights;
+    return out;
   }
+
+  // Of a light whose range has no end: not finite.
+  double reach_mm(const LostPair& pair) const { return 1000.0 * metres_per_unit_ * pair.reach_m; }
 
   void add_longest(const assign::Lists& listed, result::CheckedSet& out) const {
     const std::uint32_t fullest = listed.fullest_cell();

@@ -79,8 +79,14 @@ bool reaches_beyond(const view::Frame& frame, const grid::Grid& grid, std::uint3
          meets_narrowed(volume, of_grid, share * geom::range_of(volume));
 }
 
+// Shares that differ by less are equal: those of lights whose centres are in their cells are found by halving.
+constexpr double k_same_share = 1e-6;
+
+// Among equal shares the longer one.
 bool is_deeper(const LostPair& a, const LostPair& b) {
-  if (a.reach != b.reach) return a.reach > b.reach;
+  const double share_of_a = std::round(a.reach / k_same_share), share_of_b = std::round(b.reach / k_same_share);
+  if (share_of_a != share_of_b) return share_of_a > share_of_b;
+  if (a.reach_m != b.reach_m) return a.reach_m > b.reach_m;
   return a.cell != b.cell ? a.cell < b.cell : a.light < b.light;
 }
 
@@ -107,10 +113,12 @@ LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const ass
     const std::size_t found = each_lost(truth.of(cell), listed.of(cell), [&](std::uint32_t light) {
       ++out.lost_pairs;
       is_lost[light] = true;
-      LostPair pair{cell, light, 0.0, !reaches_beyond(frame, grid, cell, light, shares[light])};
+      LostPair pair{cell, light, 0.0, 0.0, !reaches_beyond(frame, grid, cell, light, shares[light])};
       out.within_rounding += pair.is_within_rounding ? 1 : 0;
       const bool is_full = out.deepest.size() == LostLights::k_most_kept;
-      pair.reach = reach_of(frame, grid, cell, light, is_full ? out.deepest.front().reach : 0.0);
+      const double above = is_full ? std::max(0.0, out.deepest.front().reach - 2.0 * k_same_share) : 0.0;
+      pair.reach = reach_of(frame, grid, cell, light, above);
+      pair.reach_m = pair.reach > 0.0 ? pair.reach * frame.lights[light].range_m : 0.0;
       keep_deepest(out.deepest, pair);
     });
     out.false_positives += listed.of(cell).size() - found;

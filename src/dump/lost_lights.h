@@ -12,6 +12,7 @@ namespace clusterbench::dump {
 struct LostPair {
   std::uint32_t cell = 0, light = 0;  // of the frame
   double reach = 0.0;                 // share of the range: 1 - distance / range
+  double reach_m = 0.0;               // not finite: of a light whose range has no end
   bool is_within_rounding = false;
 };
 

@@ -15,7 +15,8 @@ namespace {
 struct CameraChange {
   std::string text;
   result::DumpCamera camera;
-  Vec3d mirrored{1.0};  // signs of view space: lights are seen in a mirror
+  Vec3d mirrored{1.0};          // signs of view space: lights are seen in a mirror
+  bool is_other_space = false;  // lights are in the world in place of view space, or the other way round
 };
 
 // The other way is either of two: also the numbers may be those of the other handedness.
@@ -32,7 +33,8 @@ std::vector<CameraChange> camera_changes(const DumpFile& dump) {
   std::vector<CameraChange> out;
   // No camera changes the cells of a world grid.
   if (!has_matrices(given) || dump.record.grid.kind.value_or("frustum") == "world") return out;
-  for (const CameraWords& words : other_camera_words(given, dump.record.lights.space.value_or("world") == "view"))
+  const bool is_in_view_space = has_lights_in_view_space(dump);
+  for (const CameraWords& words : other_camera_words(given, is_in_view_space))
     out.push_back({words_text(words), words.camera});
   if (given.world_to_view || given.view_to_world) {
     out.push_back(
@@ -46,6 +48,8 @@ std::vector<CameraChange> camera_changes(const DumpFile& dump) {
        {1.0, 1.0, -1.0}});
   out.push_back({"camera: the x row of world_to_view negated", given, {-1.0, 1.0, 1.0}});
   out.push_back({"camera: the x and z rows of world_to_view negated", given, {-1.0, 1.0, -1.0}});
+  if (!dump.record.lights.scene.value_or(false))
+    out.push_back({is_in_view_space ? "lights.space 'world'" : "lights.space 'view'", given, Vec3d(1.0), true});
   return out;
 }
 
@@ -62,7 +66,7 @@ void mirror_lights(view::Frame& frame, const Vec3d& signs) {
 // nullopt where the matrices are none of a camera that way.
 std::optional<DumpFrame> changed_frame(const DumpFile& dump, const CameraChange& change) {
   try {
-    DumpFrame frame = frame_of(dump, change.camera);
+    DumpFrame frame = frame_of(dump, change.camera, has_lights_in_view_space(dump) != change.is_other_space);
     if (change.mirrored != Vec3d(1.0)) mirror_lights(frame.frame, change.mirrored);
     return frame;
   } catch (const Error&) {

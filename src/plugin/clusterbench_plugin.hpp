@@ -160,7 +160,7 @@ inline std::uint32_t light_count(const clusterbench_lights& lights) {
 // are given; a method adds those of its own steps.
 inline float padded_radius(const clusterbench_lights& lights, std::uint32_t light, float roundoffs) {
   const float radius = lights.radius[light];
-  return radius > 0.0f ? radius + roundoffs * 0x1p-24f * lights.reach[light] : radius;
+  return radius > 0.0f && roundoffs != 0.0f ? radius + roundoffs * 0x1p-24f * lights.reach[light] : radius;
 }
 
 // A box along the axes of the grid's space.

@@ -37,10 +37,14 @@ struct ListErrors {
   FIELD(std::uint64_t, lost_lights, "Lights that a cell has lost, each once", "lights");
   FIELD(std::uint64_t, lost_in_full_lists, "Of the lost pairs, those of cells whose list is full (layout fixed)",
         "pairs");
+  FIELD(std::uint64_t, lost_in_longest_lists, "Of the lost pairs, those of cells whose list is as long as the longest",
+        "pairs");
   FIELD(std::uint64_t, absent_lights, "Lights that reach a cell and are in no list at all", "lights");
   FIELD(std::uint64_t, undecided, "Pairs that exact arithmetic could not decide; counted as true", "pairs");
   FIELD(double, deepest_mm,
-        About("How far the most deeply lost light reaches into its cell; null: the range has no end", "mm")
+        About("How far the most deeply lost light, by its share of the range, reaches into its cell; of equal shares "
+              "the longest; null: the range has no end",
+              "mm")
             .at_least(0)
             .as_fraction());
   FIELD(double, deepest_percent,
