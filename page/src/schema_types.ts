@@ -1069,9 +1069,10 @@ export type CheckPage = {
           lost_within_rounding: number; // Of these, those that `rounding` of the dump allows for [pairs]
           lost_lights: number; // Lights that a cell has lost, each once [lights]
           lost_in_full_lists: number; // Of the lost pairs, those of cells whose list is full (layout fixed) [pairs]
+          lost_in_longest_lists: number; // Of the lost pairs, those of cells whose list is as long as the longest [pairs]
           absent_lights: number; // Lights that reach a cell and are in no list at all [lights]
           undecided: number; // Pairs that exact arithmetic could not decide; counted as true [pairs]
-          deepest_mm: number | null; // How far the most deeply lost light reaches into its cell; null: the range has no end [mm]
+          deepest_mm: number | null; // How far the most deeply lost light, by its share of the range, reaches into its cell; of equal shares the longest; null: the range has no end [mm]
           deepest_percent: number; // The same in percent of the range [percent]
         } | null; // Against the exact lists; null where lists could not be read
         lost: Array<{
