@@ -584,7 +584,8 @@ TEST(PluginCheck, ends_a_method_that_hangs) {
       tool("plugin check " + plugin_file("hostile") + " --method hostile.hangs --test grids --timeout 0.5");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(mentions(outcome.out, "TIMED OUT grids")) << outcome.out;
-  EXPECT_TRUE(mentions(outcome.out, "was not done within 0.5 s; it was in assign, with an ordinary view, ")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "was not done within 0.5 s; it was in assign, with an ordinary view, "))
+      << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "; --timeout SECONDS gives it longer")) << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "gdb --args clusterbench plugin check ")) << outcome.out;
 }
@@ -594,7 +595,8 @@ TEST(PluginCheck, ends_a_method_that_takes_too_much_memory) {
       tool("plugin check " + plugin_file("hostile") + " --method hostile.eats --test grids --memory 200");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(mentions(outcome.out, "CRASHED   grids")) << outcome.out;
-  EXPECT_TRUE(mentions(outcome.out, "took more than 200 MiB of memory in assign, with an ordinary view, ")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "took more than 200 MiB of memory in assign, with an ordinary view, "))
+      << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "; --memory MIB gives it more")) << outcome.out;
 }
 
