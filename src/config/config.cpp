@@ -123,8 +123,9 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
   unset.add_to(as_written.value);
-  if (flags.empty()) return read_config(as_written, preset_grid);
-  Json document = filled(as_written);
+  Config config = read_config(as_written, flags.empty() ? preset_grid : GridChange{});
+  if (flags.empty()) return config;
+  Json document = std::move(config.resolved);
   if (!document.contains("grids")) {
     const Json presets = document["presets"];
     text.value.erase("presets");
@@ -139,12 +140,7 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
     const Json whole = filled(changed)["grids"], usable = usable_default_grids(whole);
     if (usable != whole) changed.value["grids"] = usable;
   }
-  try {
-    return read_config(changed, preset_grid);
-  } catch (const Error&) {
-    read_config(as_written, {});  // a fault of the file has its place there, whatever flags have changed
-    throw;
-  }
+  return read_config(changed, preset_grid);
 }
 
 }  // namespace

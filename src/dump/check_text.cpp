@@ -87,10 +87,11 @@ std::string other_text(const result::CheckedSet& set) {
 }
 
 // Lists of any length that lose lights nearly alone where they are longest.
-bool seems_limited(const result::ListErrors& error) {
+bool seems_limited(const result::CheckedSet& set) {
   constexpr std::uint64_t k_fewest = 10;
   constexpr double k_share = 0.9;
-  return error.lost_pairs >= k_fewest &&
+  const result::ListErrors& error = *set.error;
+  return !set.other_reading && set.longest_list > 0 && error.lost_pairs >= k_fewest &&
          static_cast<double>(error.lost_in_longest_lists) >= k_share * static_cast<double>(error.lost_pairs);
 }
 
@@ -109,7 +110,7 @@ std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_w
   if (set.error->lost_in_full_lists > 0)
     out += "    " + number(set.error->lost_in_full_lists) + " of " + number(set.error->lost_pairs) +
            " lost in cells whose list is full (lists[].per_cell): there was no room for more lights\n";
-  else if (seems_limited(*set.error))
+  else if (seems_limited(set))
     out += "    " + number(set.error->lost_in_longest_lists) + " of " + number(set.error->lost_pairs) +
            " lost in cells whose list is as long as the longest, " + number(set.longest_list) +
            ": does the engine take no more lights for a cell?\n";

@@ -51,6 +51,28 @@ const Made& made_once() {
   return frame;
 }
 
+assign::Lists empty_lists() {
+  return {std::vector<std::uint32_t>(made_once().truth.begin.size(), 0), {}};
+}
+
+TEST(LostLights, of_equal_shares_of_their_ranges_the_longest_comes_first) {
+  DumpFile dump = dump_of(made_once(), empty_lists());
+  change_ranges(dump, [i = 0](double range_m) mutable { return range_m * (1.0 + 0.1 * (i++ % 7)); });
+  const result::CheckedSet set = verdict_on(dump);
+  ASSERT_GT(set.lost.size(), 10u);
+  double longest_mm = 0.0;
+  for (const result::LostInCell& lost : set.lost)
+    if (lost.reach_percent > 99.99) longest_mm = std::max(longest_mm, lost.reach_mm);
+  ASSERT_GT(longest_mm, 6000.0);
+  EXPECT_EQ(set.error->deepest_mm, longest_mm);
+  EXPECT_EQ(set.lost.front().reach_mm, longest_mm);
+}
+
+TEST(LostLights, are_no_sign_of_a_limit_where_all_lists_are_empty) {
+  const DumpFile dump = dump_of(made_once(), empty_lists());
+  EXPECT_EQ(check_text(judge(dump, {}), 1).find("take no more lights"), std::string::npos);
+}
+
 TEST(Remarks, ranges_that_are_far_too_small_for_loose_lists_are_remarked_on_before_the_figures) {
   DumpFile dump = dump_of(made_once(), loosened(made_once(), 2));
   const result::CheckedSet sound = verdict_on(dump);

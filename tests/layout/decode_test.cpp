@@ -105,6 +105,19 @@ struct FaultRow {
   const char* message;
 };
 
+void expect_faults(std::span<const FaultRow> rows, const Described& sound) {
+  for (const FaultRow& row : rows) {
+    Described described = sound;
+    row.plant(described);
+    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
+    ASSERT_EQ(faults.count, 1u) << row.name;
+    EXPECT_EQ(faults.first[0].message, row.message);
+    EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
+    EXPECT_EQ(faults.first[0].value, row.value) << row.name;
+    EXPECT_FALSE(faults.are_readable());
+  }
+}
+
 TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
   const assign::Lists lists{{0, 2}, {3, 5}};
   const auto linked = [&] { return stored("linked", {}, lists, {10, 0}); };
@@ -115,16 +128,7 @@ TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
        "count 11 is above the 10 lights of its part"},
       {"offset", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 0x00010002); }, 0, 1,
        "offset 1 and count 2 end beyond the 2 entries of buffer 'records'"}};
-  for (const FaultRow& row : packed_rows) {
-    Described described = filament(lists);
-    row.plant(described);
-    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
-    ASSERT_EQ(faults.count, 1u) << row.name;
-    EXPECT_EQ(faults.first[0].message, row.message);
-    EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
-    EXPECT_EQ(faults.first[0].value, row.value) << row.name;
-    EXPECT_FALSE(faults.are_readable());
-  }
+  expect_faults(packed_rows, filament(lists));
   const FaultRow linked_rows[] = {
       {"circle", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 1); }, 12, 0,
        "the list has more nodes than the 10 lights of its part: it goes in a circle, or has a light twice"},
@@ -147,15 +151,7 @@ TEST(Decode, an_end_that_cannot_be_right_is_named_with_its_byte) {
                             "end 11 is 11 behind the offset 0, more than the 10 lights of its part"},
                            {"beyond", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 3); }, 0, 0,
                             "offset 0 and count 3 end beyond the 2 entries of buffer 'entries'"}};
-  for (const FaultRow& row : rows) {
-    Described described = begins(lists);
-    row.plant(described);
-    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
-    ASSERT_EQ(faults.count, 1u) << row.name;
-    EXPECT_EQ(faults.first[0].message, row.message);
-    EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
-    EXPECT_EQ(faults.first[0].value, row.value) << row.name;
-  }
+  expect_faults(rows, begins(lists));
   Described odd = begin_and_end(lists);
   put<std::uint32_t>(odd.buffers[0].bytes, 4, 3);
   EXPECT_EQ(decoded(odd, {Vec3i(1), {}, 10}).faults.first[0].message,

@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <future>
 #include <random>
+#include <thread>
 
 #include "core/file_text.h"
 #include "os/guarded_memory.h"
+#include "os/orphans.h"
 #include "os/shared_library.h"
 #include "places.h"
 
@@ -94,6 +99,24 @@ TEST(GuardedMemoryDeathTest, says_what_was_touched_and_ends_the_process) {
   EXPECT_EXIT(touch(empty.data(), false), is_killed, "touched memory 0 bytes behind the end of `lists.lights`");
 }
 #endif
+
+TEST(RunnableThreads, are_those_that_do_not_wait_however_busy_the_machine_is) {
+  constexpr std::chrono::milliseconds k_step{2};
+  std::atomic<bool> stop{false};
+  std::thread busy([&] {
+    while (!stop) continue;
+  });
+  for (int i = 0; i < 50; ++i, std::this_thread::sleep_for(k_step)) EXPECT_GE(runnable_threads(), 1);
+  stop = true;
+  busy.join();
+  std::promise<void> end;
+  std::thread waiting([&] { end.get_future().wait(); });
+  int least = runnable_threads();
+  for (int i = 0; i < 500 && least > 0; ++i, std::this_thread::sleep_for(k_step)) least = runnable_threads();
+  EXPECT_EQ(least, 0);
+  end.set_value();
+  waiting.join();
+}
 
 TEST(HeapInUse, grows_by_what_is_kept) {
 #ifndef CLUSTERBENCH_SANITIZED

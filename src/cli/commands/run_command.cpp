@@ -35,9 +35,8 @@ config::Config read_config(const RunFlags& flags) {
   for (const char* way : {"perf", "callgrind", "auto"})
     if (!flags.count.empty() && flags.inputs.paths.back() == way && !fs::exists(way, none))
       throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
-  RunInputs inputs = flags.inputs;
-  inputs.are_counted_alone = flags.no_timing;
-  config::Config config = read_inputs(inputs);
+  config::Config config = read_inputs(flags.inputs);
+  if (flags.no_timing) config = config::changed(config, {{"timing", {{"measure", false}}}});
   set_gates(config, flags.gates);
   return config;
 }

@@ -51,7 +51,6 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
       all.push_back({flag.name, value});
   }
   if (inputs.are_as_shipped) all.push_back({"--set", "as_shipped=true"});
-  if (inputs.are_counted_alone) all.push_back({"--set", "timing.measure=false"});
   return all;
 }
 

@@ -18,7 +18,6 @@ struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool has_all_presets = false, are_as_shipped = false;
-  bool are_counted_alone = false;  // not timed
   std::string cost_from;           // a result with readings, whose prices replace those of the cost model; "" without
   config::GridChange preset_grid;  // replaces keys of the presets' grids
 };

@@ -37,9 +37,9 @@ struct DeviceFacts {
   // Arithmetic: whether shaders can ask for rounding to nearest in single precision. Otherwise a sum or a product may
   // be the next number on either side.
   bool rounds_to_nearest = false;
+  bool has_vulkan_1_3 = false;  // 1.2 otherwise, whose modules are of SPIR-V 1.5 at most
   // Subgroups in compute shaders: each invocation in use, where a group is whole subgroups; ballots and broadcasts; and
   // sums, minima and bitwise operations beside these.
-  bool has_vulkan_1_3 = false;  // 1.2 otherwise, whose modules are of SPIR-V 1.5 at most
   bool has_full_subgroups = false, has_ballots = false, has_subgroup_arithmetic = false;
 
   // What shaders of users may declare: numbers of SPIR-V's capabilities, ascending.
