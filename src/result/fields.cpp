@@ -4,14 +4,15 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace clusterbench::result {
 namespace {
 
-Json list_to_json(const Type& type, const void* list, bool is_fraction);
+Json list_to_json(const Type& type, const void* list, bool is_fraction, int threads);
 
-Json value_to_json(const Type& type, const void* value, bool is_in_fractions) {
+Json value_to_json(const Type& type, const void* value, bool is_in_fractions, int threads = 1) {
   const bool is_fraction = is_in_fractions || type.about.is_fraction;
   switch (type.kind) {
     case Kind::object:
@@ -20,21 +21,24 @@ Json value_to_json(const Type& type, const void* value, bool is_in_fractions) {
       return type.size(value) == 0 ? Json() : value_to_json(*type.element, type.at(value, 0), is_fraction);
     case Kind::list:
     case Kind::by_name:
-      return list_to_json(type, value, is_fraction);
+      return list_to_json(type, value, is_fraction, threads);
     default:
       return type.to_json(value, is_fraction);
   }
 }
 
-Json list_to_json(const Type& type, const void* list, bool is_fraction) {
-  Json out = type.kind == Kind::list ? Json::array() : Json::object();
-  for (std::size_t i = 0; i < type.size(list); ++i) {
-    Json element = value_to_json(*type.element, type.at(list, i), is_fraction);
-    if (type.kind == Kind::list)
-      out.push_back(std::move(element));
-    else
-      out[type.name_at(list, i)] = std::move(element);
+Json list_to_json(const Type& type, const void* list, bool is_fraction, int threads) {
+  if (type.kind == Kind::by_name) {
+    Json out = Json::object();
+    for (std::size_t i = 0; i < type.size(list); ++i)
+      out[type.name_at(list, i)] = value_to_json(*type.element, type.at(list, i), is_fraction);
+    return out;
   }
+  constexpr std::size_t k_long_list = 64;
+  std::vector<Json> out(type.size(list));
+  parallel_ranges(out.size(), out.size() < k_long_list ? 1 : threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) out[i] = value_to_json(*type.element, type.at(list, i), is_fraction);
+  });
   return out;
 }
 
@@ -125,11 +129,11 @@ Json number_json(double value, bool is_fraction) {
   return value;
 }
 
-Json to_json(const Type& type, const void* record) {
+Json to_json(const Type& type, const void* record, int threads) {
   Json out = Json::object();
   for (const Field& field : type.fields)
     if (const void* value = field.get(record))
-      out[field.name] = value_to_json(*field.type, value, field.about.is_fraction);
+      out[field.name] = value_to_json(*field.type, value, field.about.is_fraction, threads);
   return out;
 }
 

@@ -335,16 +335,16 @@ const Type& type_of() {
   return type;
 }
 
-// The JSON of a record of the given type, fields in their order.
-Json to_json(const Type& type, const void* record);
+// The JSON of a record of the given type, fields in their order. `threads` share long lists.
+Json to_json(const Type& type, const void* record, int threads = 1);
 // Fills a record; optional and late fields that the JSON lacks keep their value. Throws Error (where: the JSON pointer
 // below `where`) for a value of another type than its field's, and for a missing or unknown field. Does not check
 // ranges of values; the schema does.
 void from_json(const Type& type, const Json& json, void* record, const std::string& where);
 
 template <class Record>
-Json to_json(const Record& record) {
-  return to_json(type_of<Record>(), &record);
+Json to_json(const Record& record, int threads = 1) {
+  return to_json(type_of<Record>(), &record, threads);
 }
 template <class Record>
 Record from_json(const Json& json, const std::string& where = "") {

@@ -572,7 +572,7 @@ class Run {
   std::span<const GroupCost> costs_;  // parallel to the plan's groups, or empty
   static constexpr double k_most_waiting_ns = 2e10;
   // That are counted together. All but the last of them use one thread each.
-  static constexpr std::size_t k_groups_of_thread = 16, k_timed_groups_of_thread = 4;
+  static constexpr std::size_t k_groups_of_thread = 128, k_timed_groups_of_thread = 4;
   config::Config on_one_thread_;
   Budget lists_{static_cast<double>(memory_limit())};  // of groups that are counted at the same time, in bytes
   std::vector<CountedGroup> waiting_;

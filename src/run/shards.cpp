@@ -31,13 +31,11 @@ double lights_reaching(const config::Config& config, const SceneData& data, cons
 
 FrameCounts frame_counts(const config::Config& config, const Plan& plan, const GroupPlan& group) {
   const SceneData& data = plan.scenes[group.scene];
-  const FirstFrame first =
-      first_frame(config.grids[group.grid], data, data.paths[group.camera], config.viewports[group.viewport]);
   FrameCounts counts;
   counts.lights = static_cast<double>(data.scene.lights.size());
-  counts.cells = first.cells;
+  counts.cells = static_cast<double>(group.cells);
   counts.reaching = lights_reaching(config, data, group);
-  counts.pairs = static_cast<double>(true_pairs_about(first.cells, counts.reaching));
+  counts.pairs = static_cast<double>(true_pairs_about(group.cells, counts.reaching));
   return counts;
 }
 

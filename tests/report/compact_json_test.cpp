@@ -50,6 +50,22 @@ TEST(CompactJson, begins_each_of_several_objects_in_a_line_of_its_own) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), "  {"), 2);
 }
 
+// As do the records that it is made of: a list is long from 64 elements on.
+TEST(CompactJson, is_the_same_on_any_number_of_threads) {
+  for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 500u}) {
+    result::Result result = record_of(testing::judged(testing::result_by_hand()), {});
+    const result::Case one = result.cases.front();
+    result.cases.assign(count, one);
+    for (std::size_t i = 0; i < count; ++i) {
+      result.cases[i].name = std::string(i % 150, 'x') + std::to_string(i);
+      if (i % 3 == 0) result.cases[i].occupancy.reset();
+    }
+    const std::string text = compact_json(result::to_json(result));
+    for (const int threads : {2, 3, 16})
+      EXPECT_EQ(compact_json(result::to_json(result, threads), threads), text) << count << " cases, " << threads;
+  }
+}
+
 TEST(CompactJson, of_a_result_is_a_fraction_of_one_number_a_line) {
   const Json result = result::to_json(record_of(testing::result_by_hand(), {}));
   const std::string indented = result.dump(1), text = compact_json(result);

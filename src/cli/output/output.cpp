@@ -97,8 +97,8 @@ LaterOutput::LaterOutput(const std::string& output, bool is_none) {
   file_->probe();
 }
 
-void LaterOutput::write(const nlohmann::ordered_json& result) {
-  if (file_) file_->write(report::compact_json(result));
+void LaterOutput::write(const nlohmann::ordered_json& result, int threads) {
+  if (file_) file_->write(report::compact_json(result, threads));
 }
 
 void LaterOutput::write_text(const std::string& text) {

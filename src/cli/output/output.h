@@ -36,7 +36,7 @@ class LaterOutput {
  public:
   // Throws Error if nothing can be written there. `is_none`: nothing is written.
   explicit LaterOutput(const std::string& output, bool is_none = false);
-  void write(const nlohmann::ordered_json& result);
+  void write(const nlohmann::ordered_json& result, int threads = 1);
   void write_text(const std::string& text);
 
  private:

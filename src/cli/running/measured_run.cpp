@@ -125,7 +125,7 @@ class MeasuredRun {
     }
     if (flags_.part.can_go_on) set_timing_facts(flags_.part.message, fresh);
     if (!fresh.date.empty()) fresh.command = command_line();
-    result::Result result = report::record_of(fresh, journal.earlier_cases(), broken);
+    result::Result result = report::record_of(fresh, journal.earlier_cases(), broken, config_.threads);
     if (!flags_.baseline.binary.empty() && !add_baseline(journal, progress, stop, result)) return journal.interrupted();
     return concluded(journal, stop, result);
   }
@@ -203,9 +203,9 @@ class MeasuredRun {
     // Budgets are of all cases: `merge` holds them against all.
     const Verdicts verdicts = plan_.shard ? Verdicts() : verdicts_of(flags_.baseline, gates_, result);
     if (journal.is_kept())
-      journal.file()->finish(result);
+      journal.file()->finish(result, config_.threads);
     else
-      output_.write(result::to_json(result));
+      output_.write(result::to_json(result, config_.threads), config_.threads);
     export_files_.write(result);
     print_table(flags_, result);
     if (images_ && !images_->write(result, screen_, flags_.quiet, stop)) {

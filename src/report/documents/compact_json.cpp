@@ -1,7 +1,9 @@
 #include "report/documents/compact_json.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace clusterbench::report {
@@ -61,6 +63,8 @@ class Writer {
  public:
   std::string text;
 
+  explicit Writer(int threads) : threads_(threads) {}
+
   void append(const Json& value, std::size_t indent) {
     if (!append_short(value)) append_long(value, indent);
   }
@@ -80,10 +84,32 @@ class Writer {
   }
 
   void append_long(const Json& value, std::size_t indent) {
+    constexpr std::size_t k_long_list = 64;
     if (!value.is_structured() || is_plain_list(value))
       append_line(value, text, text.max_size());
+    else if (threads_ > 1 && value.is_array() && value.size() >= k_long_list)
+      append_elements(value, indent);
     else
       append_members(value, indent);
+  }
+
+  // As append_members(): each element begins a line, so none depends on those before it.
+  void append_elements(const Json& list, std::size_t indent) {
+    std::vector<std::string> texts(list.size());
+    parallel_ranges(list.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Writer writer(1);
+        writer.text = "\n" + std::string(indent + 1, ' ');
+        writer.append(list[i], indent + 1);
+        texts[i] = std::move(writer.text);
+      }
+    });
+    const char* separator = "[";
+    for (const std::string& element : texts) {
+      text.append(separator).append(element);
+      separator = ",";
+    }
+    text += "\n" + std::string(indent, ' ') + "]";
   }
 
   // A short member of an object stays in the line of a short predecessor.
@@ -111,12 +137,14 @@ class Writer {
     }
     text += "\n" + std::string(indent, ' ') + (value.is_object() ? "}" : "]");
   }
+
+  int threads_;
 };
 
 }  // namespace
 
-std::string compact_json(const Json& value) {
-  Writer writer;
+std::string compact_json(const Json& value, int threads) {
+  Writer writer(threads);
   writer.append(value, 0);
   return printable_json(writer.text) + "\n";
 }

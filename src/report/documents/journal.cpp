@@ -255,9 +255,9 @@ void Journal::add_broken(const result::BrokenCase& broken) {
   add({{"broken", result::to_json(broken)}});
 }
 
-void Journal::finish(const result::Result& result) {
+void Journal::finish(const result::Result& result, int threads) {
   try {
-    os::write_file(file_, compact_json(result::to_json(result)));
+    os::write_file(file_, compact_json(result::to_json(result, threads), threads));
   } catch (const Error& error) {
     throw Error(error.file(), "",
                 error.message() + (is_empty() ? "" : "; the cases are kept in " + partial_path().string()),

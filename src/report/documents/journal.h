@@ -60,8 +60,8 @@ class Journal {
     return earlier_cases_.empty() && earlier_broken_.empty() && earlier_answers_.empty() && !has_added_;
   }
 
-  // Writes the whole result and removes FILE.partial.
-  void finish(const result::Result& result);
+  // Writes the whole result, which `threads` bring into JSON, and removes FILE.partial.
+  void finish(const result::Result& result, int threads = 1);
 
   const std::filesystem::path& partial_path() const { return partial_.path(); }
 

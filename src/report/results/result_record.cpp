@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
+#include <string_view>
 
+#include "core/parallel.h"
 #include "report/cases/case_costs.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/contender.h"
@@ -42,13 +45,17 @@ void add_extra_pairs(std::vector<Case>& cases) {
   }
 }
 
-std::vector<Case> in_plan_order(const run::Result& result, const std::vector<Case>& earlier_cases) {
-  std::map<std::string, Case> by_id;
-  for (const Case& result_case : earlier_cases) by_id[result_case.id] = result_case;
-  for (const run::CaseResult& case_result : result.cases) by_id[case_result.id] = run::record_of(case_result);
-  std::vector<Case> cases;
+std::vector<Case> in_plan_order(const run::Result& result, const std::vector<Case>& earlier_cases, int threads) {
+  std::map<std::string_view, std::function<Case()>> by_id;
+  for (const Case& earlier : earlier_cases) by_id[earlier.id] = [&] { return earlier; };
+  for (const run::CaseResult& fresh : result.cases) by_id[fresh.id] = [&] { return run::record_of(fresh); };
+  std::vector<const std::function<Case()>*> found;
   for (const std::string& id : result.planned_ids)
-    if (const auto found = by_id.find(id); found != by_id.end()) cases.push_back(found->second);
+    if (const auto at = by_id.find(id); at != by_id.end()) found.push_back(&at->second);
+  std::vector<Case> cases(found.size());
+  parallel_ranges(cases.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cases[i] = (*found[i])();
+  });
   return cases;
 }
 
@@ -104,7 +111,7 @@ void add_presets(result::Result& result, const result::Result& origin) {
 }
 
 result::Result record_of(const run::Result& result, const std::vector<Case>& earlier_cases,
-                         const std::vector<result::BrokenCase>& earlier_broken) {
+                         const std::vector<result::BrokenCase>& earlier_broken, int threads) {
   result::Result out;
   out.schema_version = k_schema_version;
   out.name = result.config_name;
@@ -121,7 +128,7 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);
   out.config = result.config;
   for (const run::SceneResult& scene : result.scenes) out.scenes.push_back(run::record_of(scene));
-  out.cases = in_plan_order(result, earlier_cases);
+  out.cases = in_plan_order(result, earlier_cases, threads);
   add_broken(result, earlier_broken, out);
   add_extra_pairs(out.cases);
   add_costs(out.cases, out.config);

@@ -15,9 +15,9 @@ inline constexpr int k_schema_version = 2;
 
 // `earlier_cases`, `earlier_broken`: those of an interrupted run. All cases are in the plan's order. A finished case
 // that broke afterwards, as its plug-in was unloaded, is among the cases, with a failure. A shard has no fronts, ranks
-// and conclusions: they are of all cases, and merged() draws them.
+// and conclusions: they are of all cases, and merged() draws them. `threads` share the cases.
 result::Result record_of(const run::Result& result, const std::vector<result::Case>& earlier_cases,
-                         const std::vector<result::BrokenCase>& earlier_broken = {});
+                         const std::vector<result::BrokenCase>& earlier_broken = {}, int threads = 1);
 
 // Per scene the Pareto front in frame time, list bytes and overshade, or in the costs that `origin` ranks by
 // (run/findings/gate.h), in the order of the cases. `origin`: the result with their configuration.

@@ -46,6 +46,7 @@ struct CasePlan {
 struct GroupPlan {
   std::size_t scene, camera, viewport, grid;
   std::vector<CasePlan> cases;
+  std::uint64_t cells = 0;  // of its grid in the first frame
 };
 
 // Whether the cases' lists are compared with the truth, cell by cell.

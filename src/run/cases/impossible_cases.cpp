@@ -8,7 +8,6 @@
 #include "core/memory.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
-#include "run/cases/light_reach.h"
 
 namespace clusterbench::run {
 namespace {
@@ -33,17 +32,26 @@ std::string grid_obstacle(const grid::GridSpec& spec, const SceneData& data) {
 
 }  // namespace
 
-FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
-                       Vec2i viewport) {
-  if (path.shots.empty()) return {0, {}, {}, "the camera path has no frame"};
-  if (const std::string reason = grid_obstacle(spec, data); !reason.empty()) return {0, {}, {}, reason};
+FirstView::FirstView(const SceneData& data, const scene::CameraPath& path, Vec2i viewport) : data_(data) {
+  if (path.shots.empty()) {
+    obstacle_ = "the camera path has no frame";
+    return;
+  }
   try {
-    const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
-    LightReach reach;
-    reach.add(frame);
-    grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m(), reach.lo(), reach.hi()));
+    frame_ = view::make_frame(data.scene, path.shots.front(), 0, viewport);
+    reach_.add(*frame_);
+  } catch (const Error& error) {
+    obstacle_ = error.what();
+  }
+}
+
+FirstFrame FirstView::in(const grid::GridSpec& spec) const {
+  if (const std::string reason = grid_obstacle(spec, data_); !reason.empty()) return {0, {}, {}, reason};
+  if (!frame_) return {0, {}, {}, obstacle_};
+  try {
+    grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, *frame_, reach_.far_m(), reach_.lo(), reach_.hi()));
     const std::uint32_t cells = grid.cell_count();
-    return {cells, frame.ranges(), std::move(grid), ""};
+    return {cells, frame_->ranges(), std::move(grid), ""};
   } catch (const Error& error) {
     return {0, {}, {}, error.what()};
   }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/config.h"
+#include "run/cases/light_reach.h"
 #include "run/cases/scene_data.h"
 #include "view/frame.h"
 
@@ -20,8 +21,20 @@ struct FirstFrame {
   std::string obstacle =
       {};  // the reason why the grid cannot be made for this path; the other members are then not set
 };
-FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
-                       Vec2i viewport);
+
+// The first frame of a path in a viewport, made once for all grids. The scene must outlive it.
+class FirstView {
+ public:
+  FirstView(const SceneData& data, const scene::CameraPath& path, Vec2i viewport);
+
+  FirstFrame in(const grid::GridSpec& spec) const;
+
+ private:
+  const SceneData& data_;
+  std::optional<view::Frame> frame_;
+  LightReach reach_;      // of the frame
+  std::string obstacle_;  // the reason why there is no frame
+};
 
 // The reason why a method cannot run on a grid of this kind with the scene's lights, with its triangles, with an
 // orthographic camera if `orthographic` is set, or on this machine.

@@ -41,9 +41,11 @@ class Expansion {
   void expand() {
     for (std::size_t scene = 0; scene < plan_.scenes.size(); ++scene)
       for (std::size_t camera = 0; camera < plan_.scenes[scene].paths.size(); ++camera)
-        for (std::size_t viewport = 0; viewport < config_.viewports.size(); ++viewport)
+        for (std::size_t viewport = 0; viewport < config_.viewports.size(); ++viewport) {
+          std::optional<FirstView> view;
           for (std::size_t grid = 0; grid < config_.grids.size(); ++grid)
-            expand_group({scene, camera, viewport, grid, {}});
+            expand_group({scene, camera, viewport, grid, {}}, view);
+        }
     for (std::size_t scene = 0; scene < plan_.scenes.size(); ++scene)
       if (std::ranges::find(plan_.groups, scene, &GroupPlan::scene) != plan_.groups.end())
         skip_sets(plan_.scenes[scene]);
@@ -56,12 +58,14 @@ class Expansion {
  private:
   // --- Groups ---
 
-  void expand_group(GroupPlan group) {
+  // `view`: none until a group of its scene, camera and viewport has cases.
+  void expand_group(GroupPlan group, std::optional<FirstView>& view) {
     std::vector<Branch> branches = branches_of(group);
     if (branches.empty()) return;
     const SceneData& data = plan_.scenes[group.scene];
-    const FirstFrame first =
-        first_frame(config_.grids[group.grid], data, data.paths[group.camera], config_.viewports[group.viewport]);
+    if (!view) view.emplace(data, data.paths[group.camera], config_.viewports[group.viewport]);
+    const FirstFrame first = view->in(config_.grids[group.grid]);
+    group.cells = first.cells;
     std::string skipped_name;
     for (Branch& branch : branches) {
       if (first.obstacle.empty()) {
