@@ -83,7 +83,7 @@ class Run {
         stop_(stop),
         counts_(counts),
         launcher_(launcher),
-        costs_(costs),
+        costs_(config, plan, costs),
         on_one_thread_(config) {
     on_one_thread_.threads = 1;
     progress_.cases_total = plan.case_count();
@@ -91,7 +91,7 @@ class Run {
       const GroupPlan left = unfinished_part(group);
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
-      progress_.cost_total += cost_of_all(left);
+      progress_.cost_total += costs_.all(left);
     }
   }
 
@@ -140,72 +140,6 @@ class Run {
   GroupPlan unfinished_part(GroupPlan group) const {
     std::erase_if(group.cases, [&](const CasePlan& case_plan) { return done_.contains(case_plan.id); });
     return group;
-  }
-
-  const GroupCost* cost_of(const GroupPlan& group) const {
-    for (std::size_t i = 0; i < costs_.size(); ++i) {
-      const GroupPlan& other = plan_.groups[i];
-      if (other.scene == group.scene && other.camera == group.camera && other.viewport == group.viewport &&
-          other.grid == group.grid)
-        return &costs_[i];
-    }
-    return nullptr;
-  }
-
-  const scene::CameraPath& path_of(const GroupPlan& group) const {
-    return plan_.scenes[group.scene].paths[group.camera];
-  }
-
-  // Approximate.
-  double samples_per_frame(const GroupPlan& group) const {
-    double samples = 0.0;
-    for (const config::SampleSetRequest& request : config_.sample_sets)
-      samples += request.most_samples(config_.viewports[group.viewport]);
-    return samples;
-  }
-
-  double accuracy_cost_of(const GroupPlan& group) const {
-    if (const GroupCost* cost = cost_of(group)) return cost->counting_ns;
-    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
-                     static_cast<int>(path_of(group).shots.size()), samples_per_frame(group));
-  }
-
-  double timing_cost_of(const GroupPlan& group) const {
-    const GroupPlan timed = timed_cases(config_, group);
-    if (timed.cases.empty()) return 0.0;
-    const GroupCost* cost = cost_of(group);
-    return cost != nullptr ? cost->timing_ns : timing_cost(config_, timed);
-  }
-
-  double device_cost_of(const GroupPlan& group) const {
-    const GroupPlan on_device = device_cases(config_, group);
-    if (!config_.timing.measure || on_device.cases.empty()) return 0.0;
-    const GroupCost* cost = cost_of(group);
-    const auto frames = static_cast<double>(path_of(group).shots.size());
-    return cost != nullptr ? cost->device_ns : device_cost(config_, on_device, frames);
-  }
-
-  double reading_cost_of(const GroupPlan& group) const {
-    if (config_.reading_sets.empty()) return 0.0;
-    const GroupCost* cost = cost_of(group);
-    return cost != nullptr ? cost->reading_ns : reading_cost(config_, group);
-  }
-
-  double stability_cost_of(const GroupPlan& group) const {
-    if (!config_.stability) return 0.0;
-    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), config_.stability->steps, 0);
-  }
-
-  double details_cost_of(const GroupPlan& group) const {
-    if (!config_.details) return 0.0;
-    const config::DetailsFrames& wanted = config_.details->frames;
-    const int frames = std::max({1, wanted.count, static_cast<int>(wanted.list.size())});
-    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
-  }
-
-  double cost_of_all(const GroupPlan& group) const {
-    return accuracy_cost_of(group) + stability_cost_of(group) + details_cost_of(group) + device_cost_of(group) +
-           reading_cost_of(group) + timing_cost_of(group);
   }
 
   // For whoever has to tell in which work a plug-in broke down.
@@ -294,7 +228,7 @@ class Run {
   std::optional<GroupCounts> counted(const config::Config& config, const GroupPlan& group, const PathFrames& path,
                                      const Stop& stop) {
     const bool notes = runs_elsewhere(config_, group);
-    const double costs[] = {accuracy_cost_of(group), stability_cost_of(group), details_cost_of(group)};
+    const double costs[] = {costs_.counting(group), costs_.stability(group), costs_.details(group)};
     const auto on_counting = [&](CountingStage stage, double share) {
       if (notes) note(group, name_of(stage));
       if (share > 0.0) report_progress(group, name_of(stage), share * costs[static_cast<std::size_t>(stage)]);
@@ -356,12 +290,12 @@ class Run {
     std::erase_if(parts, [](const GroupPlan& part) { return part.cases.empty(); });
     if (parts.size() > 1) {
       double cost = 0.0;
-      for (const GroupPlan& part : parts) cost += cost_of_all(part);
-      change_progress([&](Progress& now) { now.cost_total += cost - cost_of_all(group); });
+      for (const GroupPlan& part : parts) cost += costs_.all(part);
+      change_progress([&](Progress& now) { now.cost_total += cost - costs_.all(group); });
       for (const GroupPlan& part : parts) run_group(part, out);
       return;
     }
-    change_progress([&](Progress& now) { now.cost_total -= cost_of_all(group); });
+    change_progress([&](Progress& now) { now.cost_total -= costs_.all(group); });
     for (const CasePlan& case_plan : group.cases) {
       if (is_fault)
         add_broken(case_plan, {"failed", reason, os::CallStep::assign, -1, "", ""}, out);
@@ -386,8 +320,8 @@ class Run {
       if (std::ranges::find(rest.cases, one.id, &CasePlan::id) == rest.cases.end())
         add_broken(one, breakdown_of(error, method_of(config_, one).plugin), out);
     if (rest.cases.size() == group.cases.size()) throw assign::MethodError(error);
-    const double cost = rest.cases.empty() ? 0.0 : cost_of_all(rest);
-    change_progress([&](Progress& now) { now.cost_total += cost - cost_of_all(group); });
+    const double cost = rest.cases.empty() ? 0.0 : costs_.all(rest);
+    change_progress([&](Progress& now) { now.cost_total += cost - costs_.all(group); });
     run_group(rest, out);
   }
 
@@ -400,7 +334,7 @@ class Run {
 
   double waiting_cost() const {
     double cost = 0.0;
-    for (const CountedGroup& counted_group : waiting_) cost += timing_cost_of(counted_group.group);
+    for (const CountedGroup& counted_group : waiting_) cost += costs_.timing(counted_group.group);
     return cost;
   }
 
@@ -411,7 +345,7 @@ class Run {
     const PathFrames path = run::path_of(config_, plan_, group);
     if (!time_on_device(group, path, counted_group)) return;
     if (!config_.reading_sets.empty()) {
-      report_timing(group, "reading on the device", reading_cost_of(group));
+      report_timing(group, "reading on the device", costs_.reading(group));
       counted_group.readings = reading_pass(config_, plan_.scenes[group.scene], group, path, stop_);
       if (counted_group.readings.empty()) return;
     }
@@ -431,7 +365,7 @@ class Run {
     const GroupPlan on_device = device_cases(config_, group);
     if (on_device.cases.empty()) return true;
     const int launches = launcher_ ? config_.timing.launches : 1;
-    const double per_round = device_cost_of(group) / (launches * rounds_per_launch(config_.timing, launches));
+    const double per_round = costs_.device(group) / (launches * rounds_per_launch(config_.timing, launches));
     std::vector<std::optional<DeviceTimes>> times = device_pass(
         config_, on_device, path, launches, [&] { report_timing(group, "time on the device", per_round); }, stop_);
     if (times.empty()) return false;
@@ -445,7 +379,7 @@ class Run {
 
   void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
     const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.timed, counted_group.counted)};
-    const double per_round = timing_cost_of(counted_group.group) / request.rounds;
+    const double per_round = costs_.timing(counted_group.group) / request.rounds;
     note(counted_group.group, "time");
     const GroupSamples samples = measure_launch(
         config_, counted_group.timed, path, request,
@@ -480,7 +414,7 @@ class Run {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
         timed = group;
-        report_timing(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
+        report_timing(*groups[group].group, stage.c_str(), costs_.timing(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;
       for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
@@ -569,7 +503,7 @@ class Run {
   const std::atomic<bool>& stop_;
   const Counts& counts_;
   const Launcher& launcher_;
-  std::span<const GroupCost> costs_;  // parallel to the plan's groups, or empty
+  ProgressCosts costs_;
   static constexpr double k_most_waiting_ns = 2e10;
   // That are counted together. All but the last of them use one thread each.
   static constexpr std::size_t k_groups_of_thread = 128, k_timed_groups_of_thread = 4;

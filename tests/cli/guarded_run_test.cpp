@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "cli/plugin_files.h"
 #include "cli/tool.h"
 #include "places.h"
 
@@ -17,10 +18,6 @@ namespace clusterbench::test {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string plugin_file(const std::string& name) {
-  return (std::filesystem::path(test::program()).parent_path() / "tests/plugins" / (name + ".so")).string();
-}
 
 // Cases of one group: two methods of the program, and the plug-in's, each time with other parameters.
 std::string guarded_config(const std::vector<std::string>& faults, const std::string& timing = R"(, "launches": 1)") {

@@ -55,14 +55,16 @@ inline result::CheckedSet verdict_on(const DumpFile& dump) {
   return judge(dump, {}).sets.front();
 }
 
-// Each pair through change(cell, light), which gives the pair's new cell and light; nullopt removes it.
+// The new cell and light of a pair; none: it is removed.
+using Moved = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
+
+// Each pair through change(cell, light).
 template <class Change>
 assign::Lists changed(const assign::Lists& lists, Change&& change) {
   std::vector<std::vector<std::uint32_t>> cells(lists.cell_count());
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
     for (const std::uint32_t light : lists.of(cell))
-      if (const std::optional<std::pair<std::uint32_t, std::uint32_t>> to = change(cell, light))
-        cells[to->first].push_back(to->second);
+      if (const Moved to = change(cell, light)) cells[to->first].push_back(to->second);
   assign::Lists out;
   out.begin.push_back(0);
   for (std::vector<std::uint32_t>& cell : cells) {
@@ -70,6 +72,28 @@ assign::Lists changed(const assign::Lists& lists, Change&& change) {
     out.lights.insert(out.lights.end(), cell.begin(), cell.end());
     out.begin.push_back(static_cast<std::uint32_t>(out.lights.size()));
   }
+  return out;
+}
+
+// One frame for all tests that do not change it.
+inline const Made& made() {
+  static const Made frame = made_frame();
+  return frame;
+}
+
+struct Deepest {
+  std::uint32_t cell = 0, light = 0;
+  double reach = -1.0;
+};
+
+// Where a light reaches deepest into a cell without being all around it.
+inline Deepest deepest_pair() {
+  Deepest out;
+  for (std::uint32_t cell = 0; cell < made().truth.cell_count(); ++cell)
+    for (const std::uint32_t light : made().truth.of(cell)) {
+      const double reach = 1.0 - measure::relative_distance(made().frame, made().grid, cell, light);
+      if (reach > out.reach) out = {cell, light, reach};
+    }
   return out;
 }
 
