@@ -7,15 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "assign/bounds/tile_planes.h"
-#include "assign/contract/assigner_run.h"
 #include "assign/contract/light_test.h"
 #include "assign/contract/storage.h"
 #include "assign/grid_cull/view_cull.h"
 #include "assign/occupied/depth_parts.h"
-#include "assign/settings.h"
 #include "assign/storages/fixed.h"
 #include "core/arrays.h"
-#include "effort.h"
 #include "geom/light_meets_cell.h"
 #include "geom/numbers/round_to_float.h"
 #include "geom/single_precision/bounding_volumes.h"
@@ -25,6 +22,7 @@
 #include "gpu/device_test.h"
 #include "gpu/methods/frame_arguments.h"
 #include "gpu/methods/methods.h"
+#include "gpu/structure_runs.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -34,25 +32,15 @@ using assign::AssignerDescriptor;
 using assign::AssignerRun;
 using assign::Lists;
 using assign::Params;
-using assign::ParamValue;
 using assign::StructureUse;
 using assign::testing::Setting;
-using Values = std::map<std::string, ParamValue>;
+using testing::expect_same_cells;
+using testing::lights_of;
+using testing::run_of;
+using testing::settings_of_tiles;
+using testing::Values;
 
 using DeviceOwnLists = testing::DeviceTest;
-
-view::LightArrays lights_of(const Setting& setting) {
-  return view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-}
-
-AssignerRun run_of(const std::string& name, const Values& values, Answer answer, const Setting& setting) {
-  const AssignerDescriptor& method = *assign::find_assigner(name);
-  const view::LightArrays lights = lights_of(setting);
-  AssignerRun run(method, Params(method.params, values), answer);
-  run.build(setting.grid, assign::kinds_of(lights));
-  run.assign(setting.input(lights));
-  return run;
-}
 
 Setting without_boxes(Setting setting) {
   std::erase_if(setting.frame.lights,
@@ -155,25 +143,6 @@ TEST_F(DeviceOwnLists, of_fixed_length_stay_on_the_device_as_words) {
 }
 
 // --- gpu-tiled ---
-
-// The settings of the contract, and views and lights of all sizes.
-std::vector<Setting> settings_of_tiles(std::uint64_t seed) {
-  const AssignerDescriptor& row = *assign::find_assigner("gpu-tiled");
-  std::vector<Setting> all = assign::testing::settings_for(row, seed);
-  for (Setting& setting : test::some(assign::testing::settings_of_any_size(row, 60, seed)))
-    all.push_back(std::move(setting));
-  return all;
-}
-
-void expect_same_cells(const assign::LightStructure& found, const assign::LightStructure& expected,
-                       const std::string& where) {
-  const grid::OccupiedCells cells = found.occupied_cells(), wanted = expected.occupied_cells();
-  ASSERT_EQ(cells.begin, wanted.begin) << where;
-  for (std::size_t i = 0; i < cells.parts.size(); ++i) {
-    ASSERT_EQ(cells.parts[i].depth0, wanted.parts[i].depth0) << where << ", part " << i;
-    ASSERT_EQ(cells.parts[i].depth1, wanted.parts[i].depth1) << where << ", part " << i;
-  }
-}
 
 // Where a device may round either way, its masks have some more parts.
 bool has_masks_of_the_processor() {

@@ -124,9 +124,13 @@ class Commands {
   void use(Buffers& buffers);
   // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
   void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
+  // As many groups, in three dimensions, as the first three words of a buffer say. Its barrier: before_indirect.
+  void dispatch_indirect(Kernel kernel, const Arguments& arguments, std::uint32_t groups_binding);
   // `arguments`: as many bytes as the program has. Kernels that follow in this recording see no buffers.
   void dispatch(const Program& program, std::span<const std::byte> arguments, std::array<std::uint32_t, 3> groups);
-  void barrier();
+  // `before_indirect`: a dispatch_indirect() behind it reads its groups from a buffer that a step before it wrote.
+  enum class Barrier : std::uint8_t { usual, before_indirect };
+  void barrier(Barrier kind = Barrier::usual);
   // Fills memory that nothing else uses, and waits, so that no cache holds what comes next. No step of the work.
   void flush();
   // The time of all steps until now, by the device's clock. Up to 64 in one recording; returns the number of this one.
@@ -145,6 +149,8 @@ class Commands {
   std::span<const std::uint32_t> downloaded(std::uint32_t n) const;
 
  private:
+  void bind(Kernel kernel, const Arguments& arguments);
+
   Device::Impl& device_;
   Buffers::Impl& buffers_;
   std::unique_lock<std::recursive_mutex> turn_;

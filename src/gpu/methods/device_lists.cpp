@@ -106,6 +106,7 @@ void MaskLists::reserve(const FrameArguments& arguments) {
 void MaskLists::record_counts(Commands& commands, const FrameArguments& arguments) {
   record_masks(commands, arguments);
   commands.barrier();
+  record_beside_counts(commands);
   commands.dispatch(count_, arguments, groups_for(arguments.cells, k_cell_group));
 }
 

@@ -64,6 +64,8 @@ class MaskLists : public DeviceLists {
   explicit MaskLists(const assign::Params& params);
 
   virtual void record_masks(Commands& commands, const FrameArguments& arguments) = 0;
+  // Records more into the step behind record_masks(), which reads the masks alone.
+  virtual void record_beside_counts(Commands&) {}
   void reserve(const FrameArguments& arguments) final;
   void record_counts(Commands& commands, const FrameArguments& arguments) final;
   void record_lists(Commands& commands, const FrameArguments& arguments) final;

@@ -41,7 +41,8 @@ enum Binding : std::uint32_t {
   depths,
   tile_sides,
   tiles,
-  box_bounds
+  box_bounds,
+  tile_queue = dropped  // of methods whose lists are not fixed
 };
 
 // Modes of the shaders that come in two or three.

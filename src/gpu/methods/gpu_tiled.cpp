@@ -12,18 +12,24 @@ namespace {
 
 // Bits of the modes of tile_depths and tile_lights. Masks are widened where the device may round either way: the host
 // says which depths are in a part.
-enum DepthMode : std::uint32_t { with_mask = 1, widened_mask = 2 };
-enum TileMode : std::uint32_t { planes = 1, boxes = 2, depth_mask = 4, widened = 8 };
+enum DepthMode : std::uint32_t { with_mask = 1, widened_mask = 2, appends = 4 };
+enum TileMode : std::uint32_t { planes = 1, boxes = 2, depth_mask = 4, widened = 8, occupied = 16 };
+
+bool takes_occupied_tiles(const assign::Params& params) {
+  return params.text("tiles") == "occupied";
+}
 
 std::uint32_t depth_mode_of(const assign::Params& params, const DeviceFacts& facts) {
-  if (!params.flag("depth_mask")) return 0;
-  return facts.rounds_to_nearest ? DepthMode::with_mask : DepthMode::with_mask | DepthMode::widened_mask;
+  const std::uint32_t queue = takes_occupied_tiles(params) ? DepthMode::appends : 0u;
+  if (!params.flag("depth_mask")) return queue;
+  return queue | DepthMode::with_mask | (facts.rounds_to_nearest ? 0u : DepthMode::widened_mask);
 }
 
 std::uint32_t mode_of(const assign::Params& params, const DeviceFacts& facts) {
   const std::string& test = params.text("test");
   return (test != "aabb" ? TileMode::planes : 0u) | (test != "planes" ? TileMode::boxes : 0u) |
-         (params.flag("depth_mask") ? TileMode::depth_mask : 0u) | (facts.rounds_to_nearest ? 0u : TileMode::widened);
+         (params.flag("depth_mask") ? TileMode::depth_mask : 0u) | (facts.rounds_to_nearest ? 0u : TileMode::widened) |
+         (takes_occupied_tiles(params) ? TileMode::occupied : 0u);
 }
 
 // The lists of the tiles of a frame, with the depths on the device.
@@ -31,6 +37,7 @@ class TileLists final : public MaskLists {
  public:
   explicit TileLists(const assign::Params& params)
       : MaskLists(params),
+        takes_occupied_tiles_(takes_occupied_tiles(params)),
         depths_(kernel("tile_depths", k_pixel_group, depth_mode_of(params, device().facts()))),
         lights_(kernel("tile_lights", k_light_group, mode_of(params, device().facts()))) {
     frame().take_boxes();
@@ -49,8 +56,12 @@ class TileLists final : public MaskLists {
     buffers().reserve(Binding::depths, picture_bytes(), "depths of pixels");
     buffers().reserve(Binding::tile_sides, bytes_of(sides), "sides of tiles");
     buffers().reserve(Binding::tiles, std::uint64_t{tile_count()} * 4 * k_record, "tiles");
+    if (takes_occupied_tiles_)
+      buffers().reserve(Binding::tile_queue, k_queue_head + std::uint64_t{tile_count()} * sizeof(std::uint32_t),
+                        "tiles with a surface");
     Commands commands(device(), buffers());
     commands.upload(Binding::tile_sides, sides.data(), bytes_of(sides));
+    record_empty_queue(commands);
     commands.run();
   }
 
@@ -66,6 +77,8 @@ class TileLists final : public MaskLists {
     Commands commands(device(), buffers());
     commands.barrier();  // behind upload()
     record_depths(commands, frame().arguments());
+    commands.barrier();
+    record_empty_queue(commands);
     commands.run();
   }
 
@@ -90,7 +103,7 @@ class TileLists final : public MaskLists {
 
  private:
   static constexpr std::uint32_t k_pixel_group = 256, k_light_group = 64;
-  static constexpr std::uint64_t k_record = 16;  // bytes
+  static constexpr std::uint64_t k_record = 16, k_queue_head = 16;  // bytes
 
   // As in tile.glsl.
   struct Side {
@@ -120,11 +133,22 @@ class TileLists final : public MaskLists {
   void record_masks(Commands& commands, const FrameArguments& arguments) override {
     commands.fill(Binding::masks, 0, mask_bytes(arguments));
     record_depths(commands, arguments);
-    commands.barrier();
-    commands.dispatch(lights_, of_tiles(arguments), arguments.cells);
+    if (takes_occupied_tiles_) {
+      commands.barrier(Commands::Barrier::before_indirect);
+      commands.dispatch_indirect(lights_, of_tiles(arguments), Binding::tile_queue);
+    } else {
+      commands.barrier();
+      commands.dispatch(lights_, of_tiles(arguments), arguments.cells);
+    }
+  }
+  // For the next run: before the tiles' depths this would be a step of its own.
+  void record_beside_counts(Commands& commands) override { record_empty_queue(commands); }
+  void record_empty_queue(Commands& commands) const {
+    if (takes_occupied_tiles_) commands.fill(Binding::tile_queue, 0, k_queue_head);
   }
   std::uint64_t tests_of(const FrameArguments&) const override { return 0; }  // Tiled knows how many tiles are tested
 
+  bool takes_occupied_tiles_;
   Kernel depths_, lights_;
   Vec2i picture_{0, 0};
 };
@@ -194,7 +218,14 @@ std::vector<assign::ParamSpec> params_of_tiles() {
            "pixels (2.5D)",
        .default_value = true,
        .unit = "",
-       .choices = {}}};
+       .choices = {}},
+      {.name = "tiles",
+       .summary = "a group of the lights' tests for each tile, or, by an indirect dispatch, for each tile with a "
+                  "surface alone; "
+                  "the same lists",
+       .default_value = std::string("all"),
+       .unit = "",
+       .choices = {"all", "occupied"}}};
   for (assign::ParamSpec& param : assign::light_params()) params.push_back(std::move(param));
   return params;
 }

@@ -10,6 +10,22 @@ layout(std430, set = 0, binding = 11) readonly buffer Depths { uint depths[]; };
 layout(std430, set = 0, binding = 12) readonly buffer TileSides { uvec4 sides[]; };    // of columns, then of rows
 layout(std430, set = 0, binding = 13) buffer Tiles { uvec4 tiles[]; };
 
+// The tiles with a surface, in any order, and the groups of an indirect dispatch with one for each of them, in rows as
+// Commands::dispatch() makes them. It begins with zeros.
+layout(std430, set = 0, binding = 10) buffer TileQueue {
+  uint groups_x, groups_y, groups_z, count;
+  uint tiles[];
+} queue;
+const uint k_groups_in_a_row = 32768;
+
+void append_to_queue(uint tile) {
+  uint place = atomicAdd(queue.count, 1);
+  queue.tiles[place] = tile;
+  atomicMax(queue.groups_x, min(place + 1, k_groups_in_a_row));
+  atomicMax(queue.groups_y, place / k_groups_in_a_row + 1);
+  atomicMax(queue.groups_z, 1);
+}
+
 // The side before column or row i, and the one behind it at i + 1; those of rows follow those of columns.
 struct Side {
   float boundary;       // slope, or metres in an orthographic view

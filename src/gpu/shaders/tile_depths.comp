@@ -5,7 +5,7 @@
 
 // One group per tile, over its pixels: the range of their depths, the mask of the parts with pixels, and what lies around
 // the tile between these depths.
-const uint k_with_mask = 1, k_widens = 2;  // bits of MODE
+const uint k_with_mask = 1, k_widens = 2, k_appends = 4;  // bits of MODE
 
 shared uint nearest, farthest, parts;
 shared Range range;
@@ -85,6 +85,7 @@ void main() {
   if (lane == 0) {
     range.mask = parts;
     write_range(tile, range);
+    if ((MODE & k_appends) != 0) append_to_queue(tile);
     vec2 x = vec2(column_side(column).boundary, column_side(column + 1).boundary);
     vec2 y = vec2(row_side(row + 1).boundary, row_side(row).boundary);
     write_around(tile, around(x, y, vec2(range.lo, range.hi)));

@@ -4,8 +4,8 @@
 #include "tile.glsl"
 
 // One group per tile, 64 lights at a time, an invocation for each: a bit for each light that meets the tile. The masks
-// must have been cleared; tiles without a surface are left alone.
-const uint k_planes = 1, k_boxes = 2, k_depth_mask = 4, k_widens = 8;  // bits of MODE
+// must have been cleared; tiles without a surface are left alone, or have no group (k_occupied).
+const uint k_planes = 1, k_boxes = 2, k_depth_mask = 4, k_widens = 8, k_occupied = 16;  // bits of MODE
 
 layout(std430, set = 0, binding = 14) readonly buffer BoxBounds { vec4 box_bounds[]; };  // two for each box
 
@@ -52,8 +52,9 @@ bool meets_tile(uint light, uint tile, Range range, Around around) {
 }
 
 void main() {
-  uint tile = group_index(), lane = lane_index();
-  if (tile >= frame.cells) return;  // the whole group
+  uint group = group_index(), lane = lane_index();
+  if (group >= ((MODE & k_occupied) != 0 ? queue.count : frame.cells)) return;  // the whole group
+  uint tile = (MODE & k_occupied) != 0 ? queue.tiles[group] : group;
   Range range = range_of(tile);
   if (is_empty(range)) return;  // the whole group
   Around around = around_tile(tile);

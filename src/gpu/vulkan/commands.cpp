@@ -59,17 +59,26 @@ void Commands::use(Buffers& buffers) {
                           0, nullptr);
 }
 
-void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
-  if (groups == 0) return;
+void Commands::bind(Kernel kernel, const Arguments& arguments) {
   has_work_ = true;
-  const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
   const VkPipeline pipeline = device_.pipelines.at(kernel);
   if (device_.run_before.insert(pipeline).second) new_shaders_.push_back(device_.name_of(kernel));
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
                      arguments.words.data());
+}
+
+void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
+  if (groups == 0) return;
+  bind(kernel, arguments);
+  const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
   vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),
                 static_cast<std::uint32_t>((groups + in_a_row - 1) / in_a_row), 1);
+}
+
+void Commands::dispatch_indirect(Kernel kernel, const Arguments& arguments, std::uint32_t groups_binding) {
+  bind(kernel, arguments);
+  vkCmdDispatchIndirect(device_.commands, buffers_.at.at(groups_binding).buffer, 0);
 }
 
 void Commands::dispatch(const Program& program, std::span<const std::byte> arguments,
@@ -87,13 +96,15 @@ void Commands::dispatch(const Program& program, std::span<const std::byte> argum
   vkCmdDispatch(device_.commands, groups[0], groups[1], groups[2]);
 }
 
-void Commands::barrier() {
+void Commands::barrier(Barrier kind) {
   steps_ = steps();
   has_work_ = false;
   constexpr VkPipelineStageFlags k_work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
   const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
                                VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
-  vkCmdPipelineBarrier(device_.commands, k_work, k_work, 0, 1, &memory, 0, nullptr, 0, nullptr);
+  const VkPipelineStageFlags next =
+      kind == Barrier::before_indirect ? k_work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT : k_work;
+  vkCmdPipelineBarrier(device_.commands, k_work, next, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void Commands::flush() {

@@ -278,7 +278,9 @@ Memory Device::Impl::allocate(std::uint64_t bytes, Place place) const {
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = made.bytes;
   info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (place == Place::device) info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+  if (place == Place::device)
+    info.usage |=
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
   try {
     check(vkCreateBuffer(device, &info, nullptr, &made.buffer), "vkCreateBuffer");
     VkMemoryRequirements needs{};
