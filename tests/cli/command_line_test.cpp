@@ -249,6 +249,7 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "gpu-cells",
                                              "gpu-cells-fixed",
                                              "gpu-group",
+                                             "gpu-refined",
                                              "gpu-mask",
                                              "gpu-lights",
                                              "gpu-tiled"}));

@@ -135,15 +135,17 @@ TEST_F(OnDevice, stress_takes_methods_of_a_named_one_alone_and_says_so) {
   const std::string little = "stress --random 3 -o " + out() + " --methods ";
   const Outcome without = tool("stress --random 3 --seed 5 -o " + out());
   EXPECT_EQ(without.code, 0) << without.err;
-  EXPECT_NE(without.err.find("clusterbench: left out gpu-cells, gpu-cells-fixed, gpu-group, gpu-mask, gpu-lights, "
-                             "gpu-tiled: run on a device, and none is named (--device NAME)\n"),
+  EXPECT_NE(without.err.find(
+                "clusterbench: left out gpu-cells, gpu-cells-fixed, gpu-group, gpu-refined, gpu-mask, gpu-lights, "
+                "gpu-tiled: run on a device, and none is named (--device NAME)\n"),
             std::string::npos)
       << without.err;
   EXPECT_EQ(file_text(out()).find("gpu-"), std::string::npos);
   const Outcome with = tool("stress --random 3 --seed 5 --device llvmpipe -o " + out());
   EXPECT_EQ(with.code, 0) << with.err;
   EXPECT_EQ(with.err.find("left out"), std::string::npos) << with.err;
-  for (const char* method : {"gpu-cells", "gpu-cells-fixed", "gpu-group", "gpu-mask", "gpu-lights", "gpu-tiled"})
+  for (const char* method :
+       {"gpu-cells", "gpu-cells-fixed", "gpu-group", "gpu-refined", "gpu-mask", "gpu-lights", "gpu-tiled"})
     EXPECT_NE(file_text(out()).find('"' + std::string(method) + '"'), std::string::npos) << method;
   EXPECT_EQ(tool("stress -q --random 3 --methods ^gpu-cells$ -o " + out()).code, 0);
   const Outcome gone = tool("stress --random 3 --device radeon");

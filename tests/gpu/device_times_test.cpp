@@ -133,7 +133,7 @@ TEST_F(DeviceMeasuring, of_repeated_work_come_with_the_lists_of_work_that_is_don
       EXPECT_EQ(steps, once_steps) << row->name;
     }
   }
-  EXPECT_EQ(methods, 6u);
+  EXPECT_EQ(methods, 7u);
 }
 
 // --- Building ---

@@ -97,12 +97,12 @@ set_tests_properties(gpu.no_driver PROPERTIES ENVIRONMENT "${NO_DRIVER}" TIMEOUT
 if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers Device*)
   clusterbench_add_device_tests(lavapipe_reversed "${LAVAPIPE}" mesa-vulkan-drivers
-    "DeviceCommands.s*:DeviceMethods.have*:DeviceSizes.of_any*:DeviceOwnLists.*:DeviceOccupiedTiles.*:DeviceCells.*" CLUSTERBENCH_SWAPPED_SHADERS=${REVERSED})
+    "DeviceCommands.s*:DeviceMethods.have*:DeviceSizes.of_any*:DeviceOwnLists.*:DeviceOccupiedTiles.*:DeviceRefined.*:DeviceCells.*" CLUSTERBENCH_SWAPPED_SHADERS=${REVERSED})
   clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers
-    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*:DeviceOwnLists.*:DeviceOccupiedTiles.*:DeviceCells.*:DeviceUserShaders.*:DeviceReading*-*find_the_lights_of_every*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
+    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*:DeviceOwnLists.*:DeviceOccupiedTiles.*:DeviceRefined.lists_of*:DeviceCells.*:DeviceUserShaders.*:DeviceReading*-*find_the_lights_of_every*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
   clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*:DeviceOwnLists.of_tiles_know*:\
-DeviceOwnLists.of_fixed_length_f*:DeviceOccupiedTiles.are*:DeviceUserShaders.leave*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+DeviceOwnLists.of_fixed_length_f*:DeviceOccupiedTiles.are*:DeviceRefined.lists_of*:DeviceUserShaders.leave*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
   clusterbench_add_device_tests(lavapipe_core "${LAVAPIPE}" mesa-vulkan-drivers "DeviceFaults.*"
     CLUSTERBENCH_VULKAN_VALIDATION=core)
 endif()

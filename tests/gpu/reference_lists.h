@@ -56,6 +56,7 @@ class PackedLights {
     for (std::uint32_t light = 0; light < lights.boxes.first; ++light) lights_.push_back(packed(lights, light));
   }
 
+  const geom::Ball& ball(std::uint32_t light) const { return lights_[light].ball; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(lights_.size()); }
   bool touches(std::uint32_t light, const geom::Box& box, std::uint32_t cell) const {
     const PackedLight& at = lights_[light];

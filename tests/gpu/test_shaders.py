@@ -66,7 +66,7 @@ class Changed(unittest.TestCase):
 
     def users_of(self, file):
         """The shaders to look at after a change of this file."""
-        return [file.stem] if file.suffix == ".comp" else [{"around": "bounds", "tile": "tile_lights"}.get(file.stem, "cells")]
+        return [file.stem] if file.suffix == ".comp" else [{"around": "bounds", "tile": "tile_lights", "apart": "group"}.get(file.stem, "cells")]
 
     def test_a_precise_that_is_missing_is_found(self):
         for file in sorted(self.shaders.glob("*.*")):

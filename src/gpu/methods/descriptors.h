@@ -8,6 +8,7 @@ namespace clusterbench::gpu {
 assign::AssignerDescriptor gpu_cells_descriptor();
 assign::AssignerDescriptor gpu_cells_fixed_descriptor();
 assign::AssignerDescriptor gpu_group_descriptor();
+assign::AssignerDescriptor gpu_refined_descriptor();
 assign::AssignerDescriptor gpu_mask_descriptor();
 assign::AssignerDescriptor gpu_lights_descriptor();
 assign::AssignerDescriptor gpu_tiled_descriptor();

@@ -20,6 +20,7 @@ constexpr std::uint32_t k_group = 64;
 // Roundoffs of ball_touches_box() (common.glsl), as of assign::CellAabbs, which does the same steps. A device that does
 // not round to nearest may be off by two roundoffs a step.
 constexpr float k_ball_roundoffs = 4.0f, k_cone_slack = 0x1p-19f;
+constexpr float k_corner_slack = 0x1p-23f;  // apart.glsl
 
 float steps_of(const DeviceFacts& facts) {
   return facts.rounds_to_nearest ? 1.0f : 2.0f;
@@ -77,11 +78,20 @@ void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds)
   arguments_.first_row = arguments_.columns * arguments_.slices;
   arguments_.first_slice = arguments_.first_row + arguments_.rows * arguments_.slices;
   arguments_.cone_slack = k_cone_slack * steps_of(device_->facts());
+  arguments_.corner_slack = k_corner_slack * steps_of(device_->facts());
   arguments_.is_orthographic = grid.screen().tiles.orthographic ? 1 : 0;
+  if (is_built_on_device_ || takes_boundaries_) reserve_boundaries(grid.screen());
   if (is_built_on_device_)
-    build_on_device(grid, kinds);
+    build_on_device(kinds);
   else
     build_on_host(grid, kinds);
+}
+
+void DeviceFrame::reserve_boundaries(const grid::ScreenGrid& grid) {
+  boundaries_ = grid.tiles.x;
+  boundaries_.insert(boundaries_.end(), grid.tiles.y.begin(), grid.tiles.y.end());
+  boundaries_.insert(boundaries_.end(), grid.slices.boundaries.begin(), grid.slices.boundaries.end());
+  buffers_.reserve(Binding::depths, bytes_of(boundaries_), "boundaries of cells");
 }
 
 void DeviceFrame::build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds) {
@@ -100,17 +110,13 @@ void DeviceFrame::build_on_host(const grid::Grid& grid, const assign::LightKinds
   Commands commands(*device_, buffers_);
   upload_all(commands, Binding::bounds, all);
   upload_all(commands, Binding::cell_balls, around_cells);
+  upload_all(commands, Binding::depths, boundaries_);
   commands.run();
 }
 
-void DeviceFrame::build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds) {
-  const grid::ScreenGrid& screen = grid.screen();
-  boundaries_ = screen.tiles.x;
-  boundaries_.insert(boundaries_.end(), screen.tiles.y.begin(), screen.tiles.y.end());
-  boundaries_.insert(boundaries_.end(), screen.slices.boundaries.begin(), screen.slices.boundaries.end());
+void DeviceFrame::build_on_device(const assign::LightKinds& kinds) {
   has_cell_balls_ = kinds.spots && test_.tests_cones();
   const std::uint64_t intervals = arguments_.first_slice + arguments_.slices, cells = arguments_.cells;
-  buffers_.reserve(Binding::depths, bytes_of(boundaries_), "boundaries of cells");
   buffers_.reserve(Binding::bounds, intervals * sizeof(assign::Interval), "bounds of cells");
   if (has_cell_balls_) buffers_.reserve(Binding::cell_balls, cells * sizeof(Vec4), "balls around cells");
   run_build({});

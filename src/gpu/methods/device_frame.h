@@ -22,6 +22,8 @@ class DeviceFrame {
   void cull(const grid::ScreenGrid& grid) { view_ = assign::ViewCull(grid); }
   // From now on prepare() also packs boxes, by the axis-aligned boxes around them.
   void take_boxes() { takes_boxes_ = true; }
+  // From now on build() brings the grid's boundaries to the device, too (boundaries.glsl).
+  void take_boundaries() { takes_boundaries_ = true; }
   // The number of lights that prepare() packs.
   std::uint32_t count_of(const view::LightArrays& lights) const {
     return takes_boxes_ ? lights.size() : lights.boxes.first;
@@ -53,8 +55,9 @@ class DeviceFrame {
   struct Cone {
     Vec4 apex_range, axis_cosine, sine;
   };
+  void reserve_boundaries(const grid::ScreenGrid& grid);
   void build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds);
-  void build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds);
+  void build_on_device(const assign::LightKinds& kinds);
   double run_build(const assign::DeviceRepeats& repeats);
   void pack_balls(const view::LightArrays& lights);
   void pack_cones(const view::LightArrays& lights);
@@ -64,11 +67,11 @@ class DeviceFrame {
   Buffers buffers_;
   assign::LightTest test_;
   bool is_built_on_device_, has_cell_balls_ = false;
-  std::vector<float> boundaries_;  // of the last build_on_device()
+  std::vector<float> boundaries_;  // of the last build(), where the device has them
   assign::DeviceRepeats repeats_;
   std::optional<assign::ViewCull> view_;
   std::uint32_t lights_in_view_ = 0;
-  bool takes_boxes_ = false;
+  bool takes_boxes_ = false, takes_boundaries_ = false;
   FrameArguments arguments_;
   std::vector<Vec4> balls_;
   std::vector<Cone> cones_;

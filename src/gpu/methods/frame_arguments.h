@@ -18,10 +18,12 @@ struct FrameArguments {
   float cone_slack = 0.0f;
   std::uint32_t picture_width = 0, is_orthographic = 0;
   std::uint32_t first_box = 0;  // boxes follow points and spots
+  float corner_slack = 0.0f;
 
   operator Arguments() const {  // NOLINT(google-explicit-constructor)
     return {{cells, lights, points, tests_cones, columns, rows, slices, column_pitch, row_pitch, first_row, first_slice,
-             words, capacity, std::bit_cast<std::uint32_t>(cone_slack), picture_width, is_orthographic, first_box}};
+             words, capacity, std::bit_cast<std::uint32_t>(cone_slack), picture_width, is_orthographic, first_box,
+             std::bit_cast<std::uint32_t>(corner_slack)}};
   }
 };
 

@@ -1,35 +1,14 @@
 // On the device: one group per block of 4 x 4 x 4 cells. Lights are tested against the block first, and those that
 // touch it against its cells.
 #include "gpu/methods/descriptors.h"
-#include "gpu/methods/device_lists.h"
+#include "gpu/methods/group_lists.h"
 
 namespace clusterbench::gpu {
 namespace {
 
-class Group final : public DeviceLists {
+class Group final : public GroupLists {
  public:
-  explicit Group(const assign::Params& params)
-      : DeviceLists(params),
-        count_(kernel("group", k_block_cells, Mode::count)),
-        fill_(kernel("group", k_block_cells, Mode::fill)) {}
-
- private:
-  static constexpr std::uint32_t k_block_cells = 64;
-
-  static std::uint64_t blocks_of(const FrameArguments& arguments) {
-    return groups_for(arguments.columns, 4) * groups_for(arguments.rows, 4) * groups_for(arguments.slices, 4);
-  }
-  void record_counts(Commands& commands, const FrameArguments& arguments) override {
-    commands.dispatch(count_, arguments, blocks_of(arguments));
-  }
-  void record_lists(Commands& commands, const FrameArguments& arguments) override {
-    commands.dispatch(fill_, arguments, blocks_of(arguments));
-  }
-  std::uint64_t tests_of(const FrameArguments& arguments) const override {  // of the blocks
-    return blocks_of(arguments) * arguments.lights;
-  }
-
-  Kernel count_, fill_;
+  explicit Group(const assign::Params& params) : GroupLists(params, CellTest::box) {}
 };
 
 }  // namespace

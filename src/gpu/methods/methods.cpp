@@ -12,6 +12,7 @@ void register_methods() {
     all.emplace_back(gpu_cells_descriptor());
     all.emplace_back(gpu_cells_fixed_descriptor());
     all.emplace_back(gpu_group_descriptor());
+    all.emplace_back(gpu_refined_descriptor());
     all.emplace_back(gpu_mask_descriptor());
     all.emplace_back(gpu_lights_descriptor());
     all.emplace_back(gpu_tiled_descriptor());

@@ -22,6 +22,7 @@ layout(push_constant) uniform FrameArguments {
   float cone_slack;
   uint picture_width, is_orthographic;
   uint first_box;                  // boxes follow points and spots
+  float corner_slack;
 } frame;
 
 #ifndef CELLS_ACCESS
