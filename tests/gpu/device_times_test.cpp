@@ -91,9 +91,9 @@ TEST_F(DeviceMeasuring, come_from_work_that_is_repeated_as_often_as_asked_for) {
 }
 
 assign::Lists lists_after(const AssignerDescriptor& row, const Setting& setting, const DeviceRepeats& repeats,
-                          std::uint32_t* steps = nullptr) {
+                          std::uint32_t* steps = nullptr, const assign::Params* chosen = nullptr) {
   const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-  const assign::Params params(row.params);
+  const assign::Params params = chosen != nullptr ? *chosen : assign::Params(row.params);
   if (row.make) {
     const auto method = row.make(params);
     method->build(setting.grid, assign::kinds_of(lights));
@@ -134,6 +134,19 @@ TEST_F(DeviceMeasuring, of_repeated_work_come_with_the_lists_of_work_that_is_don
     }
   }
   EXPECT_EQ(methods, 7u);
+}
+
+TEST_F(DeviceMeasuring, of_occupied_tiles_alone_repeat_what_a_queue_does_once) {
+  const AssignerDescriptor& row = *assign::find_assigner("gpu-tiled");
+  const Setting setting = testing::thinned(assign::testing::settings_for(row, 5).front(), 4, 0);
+  const assign::Params occupied(row.params, {{"tiles", std::string("occupied")}});
+  std::uint32_t steps_of_all = 0, steps = 0;
+  const assign::Lists all = lists_after(row, setting, {}, &steps_of_all);
+  for (const DeviceRepeats& repeats :
+       {DeviceRepeats{}, DeviceRepeats{Caches::warm, 3, 4, 2, 2}, DeviceRepeats{Caches::cold, 3, 3, 2, 2}}) {
+    EXPECT_EQ(testing::first_difference(lists_after(row, setting, repeats, &steps, &occupied), all), "");
+    EXPECT_EQ(steps, steps_of_all) << "in a row";
+  }
 }
 
 // --- Building ---
