@@ -1,8 +1,8 @@
 // A ball against a cell itself, in place of the box around it: of a frustum, whose slopes and depths are exact as floats.
 //
-// A direction n is a certificate that they are apart, if the ball's centre lies farther along n than each corner of the
+// A direction n is a certificate that they are apart if the ball's centre lies farther along n than each corner of the
 // cell, by more than the radius. Any n will do: way_out() looks for a good one, and its errors cost certificates, never a
-// pair. Only is_apart() decides. Points are (x, y, depth).
+// pair. Only least_gap() and is_apart() decide. Points are (x, y, depth).
 
 // 1 / x for x from 1 on, off by less than 2^-20: a division would be off by as much as the driver likes.
 float inverse(float x) {
@@ -20,10 +20,11 @@ float side_beyond(float at, vec2 slopes, float depth) {
   return at < sides.x ? slopes.x : at > sides.y ? slopes.y : 0.0;
 }
 
-// From the cell's point nearest to the centre. At a fixed depth the cell is a rectangle, so the square of the distance is
-// convex in the depth, and quadratic as long as the centre lies beyond the same sides: the least one of these sides says
-// for which sides to look next, and after three steps they rarely change. Scaled by a power of two to about 1, so that no
-// square overflows.
+// From the cell's point nearest to the centre. At each depth the cell is a rectangle, so the square of the distance is
+// convex in the depth, and quadratic as long as the centre lies beyond the same sides. The depth of the least square for
+// the sides at one depth is where to look at the sides next; after three turns they rarely change. The result is scaled by
+// a power of two to about 1, so that squares neither vanish nor overflow, but for those of a light without an end, which
+// is apart from nothing.
 vec3 way_out(vec3 center, Sides cell) {
   float depth = clamp(center.z, cell.depth.x, cell.depth.y);
   for (uint turn = 0; turn < 3; ++turn) {
