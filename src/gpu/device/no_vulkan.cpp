@@ -76,7 +76,8 @@ void Commands::use(Buffers&) {}
 void Commands::fill(std::uint32_t, std::uint32_t, std::uint64_t) {}
 void Commands::dispatch(Kernel, const Arguments&, std::uint64_t) {}
 void Commands::dispatch(const Program&, std::span<const std::byte>, std::array<std::uint32_t, 3>) {}
-void Commands::barrier() {}
+void Commands::dispatch_indirect(Kernel, const Arguments&, std::uint32_t) {}
+void Commands::barrier(Barrier) {}
 void Commands::flush() {}
 std::uint32_t Commands::mark() {
   return 0;

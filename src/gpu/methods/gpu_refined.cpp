@@ -18,7 +18,7 @@ assign::AssignerDescriptor gpu_refined_descriptor() {
       .name = "gpu-refined",
       .summary =
           "on the GPU, as gpu-group; lights that touch the box around a cell are then tested against the cell itself: "
-          "nearly exact lists",
+          "of points nearly exact lists",
       .source =
           "a separating direction from the cell's nearest point: Gilbert, Johnson, Keerthi 1988; here in closed form, "
           "and certain in single precision",

@@ -23,8 +23,8 @@ float side_beyond(float at, vec2 slopes, float depth) {
 // From the cell's point nearest to the centre. At each depth the cell is a rectangle, so the square of the distance is
 // convex in the depth, and quadratic as long as the centre lies beyond the same sides. The depth of the least square for
 // the sides at one depth is where to look at the sides next; after three turns they rarely change. The result is scaled by
-// a power of two to about 1, so that squares neither vanish nor overflow, but for those of a light without an end, which
-// is apart from nothing.
+// a power of two to about 1: squares neither vanish, as lengths are 1e-15 m or more, nor overflow, but for those of a light
+// without an end, which is apart from nothing.
 vec3 way_out(vec3 center, Sides cell) {
   float depth = clamp(center.z, cell.depth.x, cell.depth.y);
   for (uint turn = 0; turn < 3; ++turn) {
@@ -56,6 +56,18 @@ float least_gap(vec3 n, vec3 center, vec2 slopes, float depth) {
   return least;
 }
 
+// By how much n is tilted towards the eye where a cell reaches much farther than the light. Beside a side n is normal to it
+// but for roundoffs, which at the far corner can be more than the gap. Then the farthest corner at each depth is to move back
+// along n, by 16 slacks of what its movement adds up to: the gap grows with the depth by more than roundoffs do. Far from
+// normal n says that the far end is nearest, and stays as it is.
+float tilt(vec3 n, vec3 center, vec2 slopes, float far) {
+  precise float moves = n.x * slopes.x + n.y * slopes.y + n.z;  // of the corner, by metre of depth
+  precise float size = abs(n.x * slopes.x) + abs(n.y * slopes.y) + abs(n.z);
+  precise float most = moves + 16.0 * frame.corner_slack * size;
+  precise float beside = 0.0009765625 * size, reaches_far = 4.0 * center.z;
+  return far > reaches_far && moves < beside ? max(most, 0.0) : 0.0;
+}
+
 // The same slopes lie farthest along n at each depth, as no depth is negative. Squares are compared: that of the gap is off
 // by 1 roundoff, those of the radius by 1 and of n by 3, their product by 1: 6 of themselves, so 3 of the radius after the
 // root. The ball is padded by 4 of its reach, which is more.
@@ -63,6 +75,8 @@ bool is_apart(vec4 ball, Sides cell) {
   vec3 center = vec3(ball.xy, -ball.z);
   vec3 n = way_out(center, cell);
   vec2 slopes = vec2(n.x > 0.0 ? cell.x.y : cell.x.x, n.y > 0.0 ? cell.y.y : cell.y.x);
+  precise float toward_eye = n.z - tilt(n, center, slopes, cell.depth.y);
+  n.z = toward_eye;
   float near = least_gap(n, center, slopes, cell.depth.x), far = least_gap(n, center, slopes, cell.depth.y);
   if (!(near > 0.0 && far > 0.0)) return false;
   precise float squared = min(near, far) * min(near, far);
