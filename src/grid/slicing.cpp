@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "core/error.h"
 #include "geom/numbers/round_to_float.h"
@@ -261,14 +263,17 @@ float fast_log2(float value) {
   return exponent + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
 }
 
-// The number of slices that grow by `ratio` between near and far. The last one may miss far by roundoffs.
-int slices_between(double near, double far, double ratio) {
-  constexpr double k_most = 4096.0, k_roundoffs = 1e-9;
-  const double count = std::ceil(std::log(far / near) / std::log(ratio) - k_roundoffs);
-  require(count <= k_most, "slices.scheme",
-          "is cubical and would take " + std::to_string(count) +
-              " slices, of at most 4096; take larger tiles, a nearer far, or cubical-first");
-  return std::max(1, static_cast<int>(count));
+// The number of cubical slices that `found` says; throws Error where no grid has so many. `remedy`: beside larger
+// tiles.
+int checked_count(double found, const Slicing& slicing, const char* remedy) {
+  constexpr double k_most = 4096.0, k_roundoffs = 1e-9;  // the last slice may miss far by roundoffs
+  const double count = std::max(1.0, std::ceil(found - k_roundoffs));
+  if (count <= k_most) return static_cast<int>(count);
+  std::ostringstream digits;
+  digits << std::setprecision(15) << count;
+  throw Error("", "slices.scheme",
+              std::string("is cubical") + (slicing.scheme == Scheme::cubical_first ? "-first" : "") +
+                  " and would take " + digits.str() + " slices, of at most 4096; take larger tiles" + remedy);
 }
 
 }  // namespace
@@ -305,10 +310,7 @@ Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double
     require(!has_first, "slices.scheme",
             "is cubical-first; tiles of an orthographic camera are of one size, so take cubical");
     out.scheme = Scheme::linear;
-    const double count = std::ceil((reach.far - reach.near) / tile_height - 1e-9);
-    require(count <= 4096.0, "slices.scheme",
-            "is cubical and would take " + std::to_string(count) + " slices, of at most 4096; take larger tiles");
-    out.count = std::max(1, static_cast<int>(count));
+    out.count = checked_count((reach.far - reach.near) / tile_height, slicing, " or a nearer far");
     out.far_m = reach.near + out.count * tile_height;
     return out;
   }
@@ -317,7 +319,8 @@ Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double
       !has_first || (reach.near < from && from < reach.far), "slices.first",
       "is " + metres(from) + "; it must lie between near, " + metres(reach.near) + ", and far, " + metres(reach.far));
   const double ratio = 1.0 + tile_height;
-  const int count = slices_between(from, reach.far, ratio);
+  const int count = checked_count(std::log(reach.far / from) / std::log(ratio), slicing,
+                                  has_first ? ", a nearer far, or a larger first" : ", a nearer far, or cubical-first");
   out.scheme = has_first ? Scheme::exponential_first : Scheme::exponential;
   out.count = count + (has_first ? 1 : 0);
   out.far_m = from * std::pow(ratio, count);

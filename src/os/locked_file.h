@@ -36,8 +36,9 @@ class LockedFile {
   void cut_to(std::size_t bytes);
   // Restores the state of a new file.
   void empty();
-  // Throws Error if the disk has no room for this many more bytes.
-  void check_room(std::uint64_t bytes) const;
+  // Throws Error if the disk has no room for this many more bytes here and so many in another file of the folder, or if
+  // no file may have so many.
+  void check_room(std::uint64_t bytes, std::uint64_t beside) const;
   // Moves the text to a file with the first free name of PATH.1, PATH.2 ..., which it returns, and continues with an
   // empty file.
   std::filesystem::path move_text_beside();

@@ -102,7 +102,7 @@ TEST(Everywhere, a_locked_file_refuses_a_second_writer_and_lets_others_read) {
   file.cut_to(4);
   file.append("three\n");
   EXPECT_EQ(file.text(), "one\nthree\n");
-  file.check_room(1000);
+  file.check_room(1000, 500);
   EXPECT_EQ(file.text(), "one\nthree\n");
 }
 

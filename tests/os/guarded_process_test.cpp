@@ -320,7 +320,7 @@ TEST(GuardedProcess, may_write_to_its_own_journal_after_calls) {
     for (int i = 0; i < 3; ++i) {
       { const ForeignCall call(caller_of("acme"), CallStep::assign, i); }
       journal.append("one\n");
-      journal.check_room(1000);
+      journal.check_room(1000, 0);
       end_if_files_are_lost();
     }
     journal.cut_to(4);

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "effort.h"
+#include "os/locked_file.h"
 
 namespace clusterbench::os {
 namespace {
@@ -119,6 +120,19 @@ TEST_F(OutputFiles, a_full_disk_leaves_the_old_file_and_no_other) {
   EXPECT_EQ(of_new, ExitCode::internal);
   EXPECT_EQ(text_in(file_), "old");
   EXPECT_EQ(names(), 1u);
+}
+
+TEST_F(OutputFiles, the_longest_that_a_file_may_be_is_of_each_alone) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const LockedFile journal(folder_ / "journal");
+  const rlimit small{4096, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_NO_THROW(journal.check_room(3000, 3000));
+  EXPECT_THROW(journal.check_room(5000, 10), Error);
+  EXPECT_THROW(journal.check_room(10, 5000), Error);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
 }
 
 TEST_F(OutputFiles, trying_one_changes_nothing) {

@@ -1,5 +1,6 @@
 // `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "os/rereadable_inputs.h"
 #include "os/stop_signals.h"
 #include "os/temporary_folder.h"
+#include "report/documents/journal.h"
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
@@ -131,6 +133,17 @@ std::optional<ExitCode> run_part(const RunFlags& flags) {
   return code;
 }
 
+// What an interrupted run has kept, as the end of a sentence.
+std::string kept_text(const std::string& output) {
+  if (is_stream(output)) return "; -o FILE keeps each case as it is finished, and then --resume goes on";
+  const std::filesystem::path partial = report::partial_of(output);
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(partial, none)) return "";
+  const std::string text = file_text(partial.string());
+  const bool has_cases = std::ranges::count(text, '\n') > 1;  // behind the header
+  return has_cases ? "; what was measured is in " + partial.string() + ", --resume goes on" : "; no case was finished";
+}
+
 // A run of its own methods alone is one process. With plug-ins it is several, which share the inputs, and, without a
 // result file, a journal in a folder of their own.
 ExitCode run(RunFlags& flags) {
@@ -151,7 +164,8 @@ ExitCode run(RunFlags& flags) {
         flags.part = part;
         if (folder) flags.part.result_file = (*folder / "result.json").string();
         return run_part(flags);
-      });
+      },
+      [&] { return kept_text(flags.output); });
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ ExitCode code_of(const Casualty& casualty, ExitCode other) {
 }
 
 // A plug-in that was within a call when a signal came cannot be asked to stop.
-ExitCode stopped(const os::GuardedEnd& end, const char* advice) {
+ExitCode stopped(const os::GuardedEnd& end, const std::string& advice) {
   if (end.call) print_message("interrupted; the plug-in " + end.call->code + " was ended" + call_text(end) + advice);
   return os::stopped_exit_code();
 }
@@ -138,7 +138,8 @@ bool calls_in_process(const GuardFlags& flags) {
 }
 
 ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
-                     const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part) {
+                     const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part,
+                     const std::function<std::string()>& kept_text) {
   if (calls_in_process(flags)) return *part({});
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
@@ -155,7 +156,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
     next.casualty.reset();
     if (end->how == How::measured) continue;
     clear_line();
-    if (stop) return stopped(*end, "; -o FILE keeps each case as it is finished, and then --resume goes on");
+    if (stop) return stopped(*end, kept_text());
     next.casualty = casualty_of(*end, flags);
     if (next.casualty->call.group.empty()) refuse(*next.casualty, code_of(*next.casualty, ExitCode::gate_failed));
     // A method is called no more in the group that it broke down in.

@@ -47,7 +47,8 @@ struct GuardedPart {
 // `part` returns no exit code if another part is to go on. `before_each` is called here, before each part. Throws
 // Error, with the reason, if a part died as plug-ins were loaded, or without a call of one.
 ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
-                     const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part);
+                     const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part,
+                     const std::function<std::string()>& kept_text);
 
 // The same for a command of one part: if it dies, throws Error with the reason, and `code`.
 // `advice`: ends that reason.

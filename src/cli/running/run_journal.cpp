@@ -79,9 +79,9 @@ bool has_journal(const RunFlags& flags) {
   return false;
 }
 
-// At most, of a case in the result and in the journal, without details: about 3 KiB in each, and 5 KiB more with times.
+// At most, of a case in the result, and in the journal: about 3 KiB, and 5 KiB more with times.
 std::uint64_t bytes_per_case(const config::Config& config) {
-  constexpr std::uint64_t k_counted = 8 << 10, k_timed = 24 << 10;
+  constexpr std::uint64_t k_counted = 4 << 10, k_timed = 12 << 10;
   return config.timing.measure ? k_timed : k_counted;
 }
 
@@ -97,9 +97,11 @@ RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, cons
   const std::string file = is_kept_ ? flags.output : flags.part.result_file;
   if (file.empty()) return;
   const bool goes_on = flags.part.number > 0;
-  const std::uint64_t per_case = bytes_per_case(config) + (config.details ? config.details->max_bytes : 0);
-  journal_ = std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on,
-                                               per_case * plan.case_count());
+  // Details have a limit for each case, which few come near: room for one of them.
+  const std::uint64_t bytes =
+      bytes_per_case(config) * plan.case_count() + (config.details ? config.details->max_bytes : 0);
+  journal_ =
+      std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on, bytes);
   if (goes_on) return;
   if (flags.resume && journal_->is_empty()) refuse_other_builds(file, config);
   if (flags.resume && journal_->is_empty())

@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -198,18 +200,21 @@ void LockedFile::empty() {
 }
 
 // Reserves the room and frees it again.
-void LockedFile::check_room(std::uint64_t bytes) const {
+void LockedFile::check_room(std::uint64_t bytes, std::uint64_t beside) const {
   const FileChange change(descriptor_of(file_));
   const off_t size = ::lseek(descriptor_of(file_), 0, SEEK_END);
-  const int failed = reserve_room(descriptor_of(file_), size, static_cast<off_t>(bytes));
+  const std::uint64_t most = static_cast<std::uint64_t>(std::numeric_limits<off_t>::max());
+  const std::uint64_t both = std::min(bytes + beside, most), longer = std::min(std::max(bytes, beside), most);
+  int failed = reserve_room(descriptor_of(file_), size, static_cast<off_t>(both));
+  if (failed == EFBIG) failed = reserve_room(descriptor_of(file_), size, static_cast<off_t>(longer));
   const bool restored = ::ftruncate(descriptor_of(file_), size) == 0;
   if (failed == EFBIG)
     throw Error(path_.string(), "",
-                "no file may have the " + std::to_string(bytes >> 10) + " KiB that the result may take (ulimit -f)",
+                "no file may have the " + std::to_string(longer >> 10) + " KiB that the result may take (ulimit -f)",
                 ExitCode::internal);
   if (failed == ENOSPC || failed == EDQUOT || !restored)
     throw Error(path_.string(), "",
-                "no room on the disk for the " + std::to_string(bytes >> 10) + " KiB that the result may take",
+                "no room on the disk for the " + std::to_string(both >> 10) + " KiB that the result may take",
                 ExitCode::internal);
 }
 

@@ -146,13 +146,13 @@ void LockedFile::empty() {
   is_made_ = true;
 }
 
-void LockedFile::check_room(std::uint64_t bytes) const {
+void LockedFile::check_room(std::uint64_t bytes, std::uint64_t beside) const {
   std::error_code failed;
   const fs::path folder = fs::absolute(path_, failed).parent_path();
   ULARGE_INTEGER room{};
-  if (::GetDiskFreeSpaceExW(folder.c_str(), &room, nullptr, nullptr) == 0 || room.QuadPart >= bytes) return;
+  if (::GetDiskFreeSpaceExW(folder.c_str(), &room, nullptr, nullptr) == 0 || room.QuadPart >= bytes + beside) return;
   throw Error(path_.string(), "",
-              "no room on the disk for the " + std::to_string(bytes >> 10) + " KiB that the result may take",
+              "no room on the disk for the " + std::to_string((bytes + beside) >> 10) + " KiB that the result may take",
               ExitCode::internal);
 }
 

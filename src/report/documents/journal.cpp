@@ -175,7 +175,7 @@ Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uin
   else
     set_earlier_aside(header_line(header));
   const std::uint64_t kept = partial_.text().size();
-  partial_.check_room(expected_bytes > kept ? expected_bytes - kept : 0);
+  partial_.check_room(expected_bytes > kept ? expected_bytes - kept : 0, expected_bytes);
   if (!partial_.text().empty()) return;
   try {
     partial_.append(header_line(header));
