@@ -165,12 +165,12 @@ void read_clusterings(const Json& document, const JsonText& text, const GridChan
   config.own_assigners = config.assigners.size();
   config.own_storages = config.storages.size();
   if (!document.contains("presets")) return;
-  const Json schema = config_schema();
+  const std::shared_ptr<const Json> schema = shared_config_schema();
   // Only a device that is named: without one, results are the same on every machine.
   const PresetForm form{document.value("as_shipped", false), !document.value("device", "").empty()};
   for (std::size_t viewport = 0; viewport < config.viewports.size(); ++viewport)
     for (const Json& name : document["presets"])
-      add_preset(*find_preset(name.get<std::string>()), viewport, schema, form, preset_grid, config);
+      add_preset(*find_preset(name.get<std::string>()), viewport, *schema, form, preset_grid, config);
 }
 
 }  // namespace clusterbench::config

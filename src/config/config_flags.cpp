@@ -55,7 +55,8 @@ Json value_of(const std::string& text) {
 
 // Whether the schema allows only a list there: --set precision=half is a list of one.
 bool wants_list(const std::string& pointer) {
-  static const Json schema = config_schema();
+  static const std::shared_ptr<const Json> shared = shared_config_schema();
+  const Json& schema = *shared;
   const std::string key = pointer.substr(0, pointer.find('/', 1));
   const Json::json_pointer top("/properties" + key), below_top("/properties" + pointer.substr(key.size()));
   const Json* part = schema.contains(top) ? &schema[top] : nullptr;
@@ -396,7 +397,8 @@ bool is_set_by_flag(const JsonText& text, const std::string& grid, const std::st
 
 // Drops keys of `slices` that none of its schemes uses and that no flag set: a flag chose another scheme.
 void drop_unused_slice_keys(JsonText& text) {
-  const Json properties = config_schema()["definitions"]["slices"]["properties"];
+  const std::shared_ptr<const Json> schema = shared_config_schema();
+  const Json& properties = (*schema)["definitions"]["slices"]["properties"];
   Json& grids = text.value["grids"];
   for (std::size_t i = 0; i < grids.size(); ++i) {
     if (!grids[i].contains("slices") || !grids[i]["slices"].contains("scheme")) continue;

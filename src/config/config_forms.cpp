@@ -85,8 +85,8 @@ void drop_own_clusterings(Json& document) {
 
 Json filled(const JsonText& text) {
   const std::vector<std::string> shaders = add_shaders(text);
-  const Json schema = config_schema();
-  Json document = read_by_schema(schema, long_form(text.value, text), text);
+  const std::shared_ptr<const Json> schema = shared_config_schema();
+  Json document = read_by_schema(*schema, long_form(text.value, text), text);
   if (document.contains("viewport")) {
     document["viewports"] = Json::array({document["viewport"]});
     document.erase("viewport");
@@ -98,7 +98,7 @@ Json filled(const JsonText& text) {
   longer["assigners"] = with_shaders(without_globs(document["assigners"], text), shaders);
   longer = long_form(std::move(longer), text);
   for (const auto& [key, value] : longer.items())  // defaults have short forms, too
-    if (value != document[key]) document[key] = read_member_by_schema(schema, key, value, text);
+    if (value != document[key]) document[key] = read_member_by_schema(*schema, key, value, text);
   if (document.value("as_shipped", false) && !document.contains("presets"))
     throw Error(text.file, text.where("/as_shipped"), "found true without presets; allowed beside presets only");
   if (!document.contains("presets")) return document;

@@ -1,7 +1,6 @@
 #include "config/limit_rules.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -56,8 +55,9 @@ std::optional<Number> number_in(std::string_view text) {
     text = without_blanks(text.substr(0, text.size() - 1));
   }
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), out.value);
-  if (failed != std::errc() || end != text.data() + text.size() || !std::isfinite(out.value)) return std::nullopt;
+  const std::optional<double> value = decimal_number(text);
+  if (!value) return std::nullopt;
+  out.value = *value;
   return out;
 }
 

@@ -1,7 +1,9 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 namespace clusterbench {
@@ -63,6 +65,17 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 }
 
 }  // namespace
+
+// libc++ has no std::from_chars for doubles before version 20. The program never leaves the locale C.
+std::optional<double> decimal_number(std::string_view text) {
+  if (text.empty() || text.front() == '+' || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
+    return std::nullopt;
+  const std::string whole(text);
+  char* end = nullptr;
+  const double value = std::strtod(whole.c_str(), &end);
+  if (end != whole.c_str() + whole.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
 
 std::string printable_json(std::string_view json) {
   std::string out;

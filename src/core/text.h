@@ -25,6 +25,9 @@ void add_once(const std::string& line, std::vector<std::string>& lines);
 
 // "1 light", "2 lights", "0 lights": a word whose plural has an s.
 std::string number_of(std::uint64_t count, std::string_view word);
+// The number that the whole text is, as "-12.5e3"; none for any other text, blanks, infinities and hexadecimal digits
+// included.
+std::optional<double> decimal_number(std::string_view text);
 
 // The words quoted for a shell: "run 'a b.json'".
 std::string shell_command(std::span<const std::string> words);

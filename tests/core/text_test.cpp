@@ -63,6 +63,18 @@ TEST(NumberOf, has_the_plural_where_it_belongs) {
   EXPECT_EQ(number_of(2, "light"), "2 lights");
 }
 
+TEST(DecimalNumber, is_all_of_a_text_or_none) {
+  EXPECT_EQ(decimal_number("64"), 64.0);
+  EXPECT_EQ(decimal_number("-12.5e3"), -12500.0);
+  EXPECT_EQ(decimal_number(".5"), 0.5);
+  EXPECT_EQ(decimal_number("0.1"), 0.1);
+  EXPECT_EQ(decimal_number("1e308"), 1e308);
+  for (const char* text :
+       {"", " 1", "1 ", "+1", "1e", "e5", "-", ".", "1.2.3", "0x10", "inf", "nan", "1e309", "1,5", "1f"})
+    EXPECT_FALSE(decimal_number(text)) << text;
+  EXPECT_EQ(decimal_number(std::string_view("12345").substr(0, 2)), 12.0) << "no longer than the text is";
+}
+
 TEST(Sha256, agrees_with_the_examples_of_fips_180) {
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

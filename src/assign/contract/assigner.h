@@ -239,6 +239,8 @@ class AssignerRegistration {
  private:
   AssignerDescriptor descriptor_;
 };
+// Grows with each registration and each end of one.
+std::uint64_t registry_version();
 // nullptr if there is none.
 const AssignerDescriptor* find_assigner(const std::string& name);
 // Among methods that make the same lists, the ones known to be slower without measuring: 1 with SIMD, 2 the plain form

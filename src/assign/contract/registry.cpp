@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 
 #include "assign/contract/assigner.h"
 #include "core/error.h"
@@ -10,6 +11,8 @@ namespace clusterbench::assign {
 #undef CLUSTERBENCH_ASSIGNER
 
 namespace {
+
+std::atomic<std::uint64_t> changes{0};  // of the registry
 
 std::vector<const AssignerDescriptor*>& registry() {
 #define CLUSTERBENCH_ASSIGNER(file) &file##_descriptor,
@@ -56,10 +59,16 @@ AssignerRegistration::AssignerRegistration(AssignerDescriptor descriptor) : desc
   if (find_assigner(descriptor_.name) != nullptr)
     throw Error("", descriptor_.name, "is the name of an assigner that is there already");
   registry().push_back(&descriptor_);
+  ++changes;
 }
 
 AssignerRegistration::~AssignerRegistration() {
   std::erase(registry(), &descriptor_);
+  ++changes;
+}
+
+std::uint64_t registry_version() {
+  return changes;
 }
 
 const AssignerDescriptor* find_assigner(const std::string& name) {

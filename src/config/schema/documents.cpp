@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <mutex>
 
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
@@ -124,11 +126,23 @@ Json json_of() {
 
 }  // namespace
 
+std::shared_ptr<const Json> shared_config_schema() {
+  static std::mutex mutex;
+  static std::shared_ptr<const Json> known;
+  static std::uint64_t version = 0;
+  const std::lock_guard lock(mutex);
+  if (known == nullptr || version != assign::registry_version()) {
+    version = assign::registry_version();
+    Json schema = Json::parse(config_schema_text());
+    insert_methods(schema["properties"]);
+    expand(schema);
+    known = std::make_shared<const Json>(std::move(schema));
+  }
+  return known;
+}
+
 Json config_schema() {
-  Json schema = Json::parse(config_schema_text());
-  insert_methods(schema["properties"]);
-  expand(schema);
-  return schema;
+  return *shared_config_schema();
 }
 
 Json result_schema() {

@@ -1,6 +1,7 @@
 #pragma once
 // The JSON documents that clusterbench reads and writes, each with its JSON Schema (draft-07).
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -55,7 +56,8 @@ Document document_of(const Json& value) {
 // Throws Error if a written document has another version than its schema: names and meanings differ.
 void check_version(const std::string& path, const nlohmann::json& document, const DocumentRow& row);
 
-// The embedded text, completed by the rows of assigners and storages.
+// The embedded text, completed by the rows of assigners and storages; made again only where a method came or went.
+std::shared_ptr<const nlohmann::json> shared_config_schema();
 nlohmann::json config_schema();
 nlohmann::json result_schema();
 
