@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "run/cases/frame_work.h"
-#include "run/cases/impossible_cases.h"
 #include "run/runner.h"
 
 namespace clusterbench::run {

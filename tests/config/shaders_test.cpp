@@ -51,9 +51,10 @@ TEST_F(Shaders, run_once_with_the_parameters_that_are_named) {
   const Config config = config_beside(
       R"(, "assigners": [{"name": "append", "group": [8, 32]}, "aabb"], "shaders": ["shaders/append.json"])");
   EXPECT_EQ(labels_of(config), (std::vector<std::string>{"append(group=8)", "append", "aabb"}));
-  EXPECT_NE(shader_refusal_of(R"(, "assigners": [{"name": "append", "group": 2000}], "shaders": ["shaders/append.json"])")
-                .find("2000"),
-            std::string::npos);
+  EXPECT_NE(
+      shader_refusal_of(R"(, "assigners": [{"name": "append", "group": 2000}], "shaders": ["shaders/append.json"])")
+          .find("2000"),
+      std::string::npos);
 }
 
 TEST_F(Shaders, of_flags_are_written_relative_to_the_configuration) {
@@ -69,8 +70,9 @@ TEST_F(Shaders, are_refused_where_nothing_would_run_them_or_nothing_is_there) {
   EXPECT_NE(shader_refusal_of(R"(, "assigners": ["append"])").find("append"), std::string::npos);
   EXPECT_NE(shader_refusal_of(R"(, "presets": ["daveh355"], "shaders": ["shaders/append.json"])").find("runs nowhere"),
             std::string::npos);
-  EXPECT_NE(shader_refusal_of(R"(, "shaders": ["shaders/none.json"])").find("configs/shaders/none.json: does not exist"),
-            std::string::npos);
+  EXPECT_NE(
+      shader_refusal_of(R"(, "shaders": ["shaders/none.json"])").find("configs/shaders/none.json: does not exist"),
+      std::string::npos);
   EXPECT_NE(shader_refusal_of(R"(, "shaders": "shaders/append.json")").find("/shaders: found"), std::string::npos);
   EXPECT_NE(shader_refusal_of(R"(, "shaders": [1])").find("/shaders/0: found 1"), std::string::npos);
 }
