@@ -167,9 +167,10 @@ Setting street(const Vec3i& cells, double far_m = 100) {
   assign::testing::Random random(41);
   std::vector<scene::WorldLight> lights;
   for (int i = 0; i < 200; ++i) {
-    const double depth = random.log_between(0.8, 110);
-    lights.push_back(assign::testing::point_light(
-        {random.between(-1.1, 1.1) * depth, random.between(-1.1, 1.1) * depth, -depth}, random.log_between(0.3, 4)));
+    // One after the other: compilers evaluate arguments in orders of their own.
+    const double depth = random.log_between(0.8, 110), range_m = random.log_between(0.3, 4);
+    const double x = random.between(-1.1, 1.1) * depth, y = random.between(-1.1, 1.1) * depth;
+    lights.push_back(assign::testing::point_light({x, y, -depth}, range_m));
   }
   setting.frame = assign::testing::frame_of({false, -1, 1, -1, 1, 1, 100}, {4096, 4096}, std::move(lights));
   grid::GridSpec spec;
@@ -205,7 +206,7 @@ TEST_F(DeviceRefined, lists_have_hardly_a_false_pair) {
     const Lists refined_lists = lists_of(refined(), Params(refined().params), setting);
     const std::uint64_t of_boxes = false_pairs(lists_of(group(), Params(group().params), setting)),
                         left = false_pairs(refined_lists);
-    EXPECT_GT(of_boxes, refined_lists.pair_count() / 25) << setting.name;
+    EXPECT_GT(of_boxes, refined_lists.pair_count() / 50) << setting.name;
     EXPECT_LE(left, refined_lists.pair_count() / 10'000) << setting.name << ", " << of_boxes << " of gpu-group";
   }
 }
