@@ -206,7 +206,7 @@ TEST_F(DeviceRefined, lists_have_hardly_a_false_pair) {
     const Lists refined_lists = lists_of(refined(), Params(refined().params), setting);
     const std::uint64_t of_boxes = false_pairs(lists_of(group(), Params(group().params), setting)),
                         left = false_pairs(refined_lists);
-    EXPECT_GT(of_boxes, refined_lists.pair_count() / 50) << setting.name;
+    EXPECT_GT(of_boxes, refined_lists.pair_count() / 25) << setting.name;
     EXPECT_LE(left, refined_lists.pair_count() / 10'000) << setting.name << ", " << of_boxes << " of gpu-group";
   }
 }

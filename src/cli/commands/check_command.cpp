@@ -36,8 +36,7 @@ std::string last_line(const std::string& verdict, bool allows_rounding, bool nam
   if (verdict == "twice") return "A light is shaded twice: the engine adds it twice, or two parts of a set overlap.";
   if (verdict == "misread")
     return "Correct the description of the dump as said first, and check again; if that is what the engine looks up "
-           "by, "
-           "the fault is the engine's.";
+           "by, the fault is the engine's.";
   if (verdict == "lost")
     return std::string("Lights are lost. ") +
            (names_cells ? "Compare the first cell above with the engine's own test; --json FILE has up to 1000 of them."

@@ -45,7 +45,8 @@ struct GuardedPart {
 };
 
 // `part` returns no exit code if another part is to go on. `before_each` is called here, before each part. Throws
-// Error, with the reason, if a part died as plug-ins were loaded, or without a call of one.
+// Error, with the reason, if a part died as plug-ins were loaded, or without a call of one. `kept_text`: ends the
+// sentence of a command that is interrupted within a call of a plug-in.
 ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
                      const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part,
                      const std::function<std::string()>& kept_text);
