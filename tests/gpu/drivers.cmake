@@ -152,10 +152,12 @@ if(NOT CLUSTERBENCH_SANITIZE)
     string(TOUPPER ${MODE} DRIVER)
     if(${DRIVER})
       list(GET ${DRIVER} 0 DRIVER)
-      add_test(NAME gpu.${MODE}_user_shaders COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_user_shaders.py
-               $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR})
-      set_tests_properties(gpu.${MODE}_user_shaders PROPERTIES
-        ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER};LP_NUM_THREADS=2" TIMEOUT 600 SKIP_RETURN_CODE 77)
+      foreach(SHADER_TEST user_shaders shader_faults)
+        add_test(NAME gpu.${MODE}_${SHADER_TEST} COMMAND ${Python3_EXECUTABLE}
+                 ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_${SHADER_TEST}.py $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR})
+        set_tests_properties(gpu.${MODE}_${SHADER_TEST} PROPERTIES
+          ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER};LP_NUM_THREADS=2" TIMEOUT 600 SKIP_RETURN_CODE 77)
+      endforeach()
     endif()
   endforeach()
 endif()
