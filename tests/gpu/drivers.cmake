@@ -6,9 +6,6 @@
 #   lavapipe_bounds             it looks for reads and writes beyond buffers
 #   lavapipe_core               it looks for what is used against the rules, or not destroyed
 # A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
-file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
-file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
-     /opt/google/chrome/vk_swiftshader_icd.json)
 
 # Faults of Vulkan's calls, which the test program puts between the layer and the driver.
 if(VULKAN_INCLUDE AND VOLK_INCLUDE AND GLSLANG)
