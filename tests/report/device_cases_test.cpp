@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "config/schema/documents.h"
 #include "config/schema/schema_verdict.h"
 #include "report/cases/contender.h"
+#include "report/cases/timing_warnings.h"
 #include "report/choosing/conclusion.h"
 #include "report/comparison_by_hand.h"
 #include "report/results/merge.h"
@@ -103,6 +106,25 @@ TEST(DeviceCases, of_a_device_whose_clock_moves_are_doubted) {
   result.cases[2].device->clock_mhz = {1500.0, 1410.0, 1500.0};
   const std::string table = render_table(test::result_of(json_of(result)), false);
   EXPECT_NE(table.find("warning: the device ran at 1410 to 1500 MHz while "), std::string::npos) << table;
+}
+
+TEST(DeviceCases, without_an_interval_or_with_a_wide_one_are_doubted_unless_they_are_of_software) {
+  const auto warnings_with = [](double low, double high, gpu::DeviceType type = gpu::DeviceType::discrete) {
+    run::Result result = with_device(2000.0, type);
+    result.cases[2].device->cold->run_ns.ci95 = {low, high};
+    return timing_warnings(test::result_of(json_of(result)));
+  };
+  EXPECT_EQ(warnings_with(1900.0, 2150.0).find("on the device"), std::string::npos);
+  EXPECT_NE(warnings_with(1500.0, 2500.0)
+                .find("warning: 1 of 1 time on the device with intervals wider than ±10 %, the widest -25/+25 %: "
+                      "frustum 64px/gpu-cells/packed; leave the device to this run, or try --launches 20"),
+            std::string::npos)
+      << warnings_with(1500.0, 2500.0);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(warnings_with(unknown, unknown).find("warning: 1 of 1 time on the device without an interval: "),
+            std::string::npos)
+      << warnings_with(unknown, unknown);
+  EXPECT_EQ(warnings_with(unknown, unknown, gpu::DeviceType::software).find("on the device"), std::string::npos);
 }
 
 TEST(DeviceCases, of_older_versions_are_read) {

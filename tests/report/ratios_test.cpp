@@ -188,11 +188,11 @@ TEST(Ratios, the_table_of_a_run_marks_rows_that_are_not_told_from_the_one_above)
 }
 
 TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
-  const std::vector<result::Case> cases = timed_result({{1000, 1010, 1001, 1004, 1003, 1002}}).cases;
-  EXPECT_EQ(timing_warnings(cases), "");
+  const result::Result steady = timed_result({{1000, 1010, 1001, 1004, 1003, 1002}});
+  EXPECT_EQ(timing_warnings(steady), "");
   const auto with = [&](const result::Disturbed& disturbed) {
-    std::vector<result::Case> changed = cases;
-    changed[0].timing->disturbed = disturbed;
+    result::Result changed = steady;
+    changed.cases[0].timing->disturbed = disturbed;
     return timing_warnings(changed);
   };
   EXPECT_NE(with({0.5, 0.0, 0}).find("0.5 processors busy"), std::string::npos);
@@ -200,13 +200,13 @@ TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
   EXPECT_NE(with({0.0, 0.05, 0}).find("other guests"), std::string::npos);
   EXPECT_NE(with({0.0, 0.0, 3}).find("heat 3 times"), std::string::npos);
 
-  const std::string wide = timing_warnings(three_methods().cases);
+  const std::string wide = timing_warnings(three_methods());
   EXPECT_NE(wide.find("3 of 3 times with intervals wider than ±10 %"), std::string::npos) << wide;
   EXPECT_NE(wide.find("--launches 12"), std::string::npos) << wide;
 
   std::vector<double> alternating;
   for (int i = 0; i < 18; ++i) alternating.push_back(i % 2 == 0 ? 1000.0 + i : 1200.0 + i);
-  const std::string two = timing_warnings(timed_result({alternating}).cases);
+  const std::string two = timing_warnings(timed_result({alternating}));
   EXPECT_NE(two.find("1 of 1 time in two groups, as at 1.008 and 1.209 us"), std::string::npos) << two;
 }
 

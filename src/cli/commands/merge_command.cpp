@@ -67,7 +67,7 @@ ExitCode merge_shards(const MergeFlags& flags, std::vector<report::NamedPart> pa
   result::Result result = report::merged(parts);
   const Verdicts verdicts = verdicts_of({}, gates, result);
   write_output(flags.output, result::to_json(result));
-  std::cerr << report::warnings_text(result) << report::timing_warnings(result.cases);
+  std::cerr << report::warnings_text(result) << report::timing_warnings(result);
   return report_verdicts(verdicts, result);
 }
 

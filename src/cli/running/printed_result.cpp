@@ -38,7 +38,7 @@ std::string next_text(const RunFlags& flags, const result::Result& result) {
 void print_table(const RunFlags& flags, const result::Result& result) {
   if (flags.quiet) {
     std::cerr << report::warnings_text(result) << report::unable_text(result.skipped)
-              << report::timing_warnings(result.cases);
+              << report::timing_warnings(result);
     return;
   }
   const bool for_reading = is_for_reading(flags.output);

@@ -1,6 +1,8 @@
 #include "report/cases/timing_warnings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/text.h"
@@ -16,6 +18,7 @@ using result::Case;
 using result::Disturbed;
 using result::Interval;
 using result::number;
+using result::Result;
 using result::Time;
 using result::Timing;
 
@@ -48,7 +51,7 @@ class Doubt {
   double badness() const { return badness_; }
   const Case& worst() const { return *worst_; }
   std::string name() const { return shown(worst_->name); }
-  std::string cases(std::size_t timed) const { return std::to_string(count_) + " of " + number_of(timed, "time"); }
+  std::string count() const { return std::to_string(count_); }
 
  private:
   std::size_t count_ = 0;
@@ -64,28 +67,58 @@ std::optional<measure::TwoModes> modes_of(const Case& result_case) {
   return measure::two_modes(frame_rounds(result_case));
 }
 
-std::string more_launches(const Case& result_case) {
-  return "--launches " + std::to_string(4 * result_case.timing->launches.value_or(1));
+std::string more_launches(std::uint64_t launches) {
+  return "--launches " + std::to_string(4 * launches);
 }
 
-std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
-  return unknown.cases(timed) + " without an interval: " + what_intervals_take() + "; try --launches 5";
+std::uint64_t launches_of(const Case& result_case) {
+  return result_case.timing->launches.value_or(1);
 }
 
-std::string wide_warning(const Doubt& wide, std::size_t timed) {
-  std::string interval = frame_interval_text(wide.worst());
-  if (!interval.starts_with('-')) interval.insert(0, "±");
-  return wide.cases(timed) + " with intervals wider than ±10 %, the widest " + interval + ": " + wide.name() +
-         "; stop other programs, or try " + more_launches(wide.worst());
-}
+// Of times of the processor, or of those `where`, the ones whose 95 % interval is unknown or wide.
+class IntervalDoubts {
+ public:
+  explicit IntervalDoubts(const char* where = "") : where_(where) {}
 
-std::string modes_warning(const Doubt& two, std::size_t timed) {
+  void add(const Case& result_case, const Time& time, std::uint64_t launches) {
+    ++timed_;
+    const Interval& ci95 = time.ci95;
+    if (!is_known(ci95)) return unknown_.add(result_case, 0.0);
+    const double badness = 0.5 * (ci95[1] - ci95[0]) / time.median;
+    if (!(badness > k_wide)) return;
+    wide_.add(result_case, badness);
+    if (&wide_.worst() != &result_case) return;
+    widest_ = interval_text(time);
+    launches_ = launches;
+  }
+
+  // `remedy`: what else than launches helps against wide intervals.
+  void add_warnings(std::vector<std::string>& out, const std::string& remedy) const {
+    if (unknown_.is_any())
+      out.push_back(cases(unknown_) + " without an interval: " + what_intervals_take() + "; try --launches 5");
+    if (wide_.is_any())
+      out.push_back(cases(wide_) + " with intervals wider than ±10 %, the widest " +
+                    (widest_.starts_with('-') ? "" : "±") + widest_ + ": " + wide_.name() + "; " + remedy +
+                    ", or try " + more_launches(launches_));
+  }
+
+  std::string cases(const Doubt& of) const { return of.count() + " of " + number_of(timed_, "time") + where_; }
+
+ private:
+  const char* where_;
+  std::size_t timed_ = 0;
+  Doubt unknown_, wide_;
+  std::string widest_;
+  std::uint64_t launches_ = 1;
+};
+
+std::string modes_warning(const Doubt& two, const IntervalDoubts& times) {
   const measure::TwoModes modes = *modes_of(two.worst());
-  return two.cases(timed) + " in two groups, as at " + text("%.4g", modes.low / 1e3) +
+  return times.cases(two) + " in two groups, as at " + text("%.4g", modes.low / 1e3) +
          text(" and %.4g us: ", modes.high / 1e3) + two.name() +
          "; something switches while it is measured (clock speed, another program, where memory lies): try a fixed "
          "clock, or " +
-         more_launches(two.worst());
+         more_launches(launches_of(two.worst()));
 }
 
 void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, const Doubt& stolen, const Doubt& hot,
@@ -110,21 +143,14 @@ std::string clock_warning(const Doubt& moving) {
 }  // namespace
 
 std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std::string& without_times) {
-  Doubt unknown, wide, two, others, stolen, hot, moving;
-  std::size_t timed = 0;
+  IntervalDoubts times;
+  Doubt two, others, stolen, hot;
   for (const Case& result_case : cases) {
     const auto check = [&](Doubt& doubt, double badness, double most) {
       if (badness > most) doubt.add(result_case, badness);
     };
-    check(moving, clock_spread(result_case), k_clock_spread);
-    const double ns = frame_ns(result_case);
-    if (ns <= 0.0) continue;
-    ++timed;
-    const Interval& ci95 = result_case.timing->frame_ns.ci95;
-    if (is_known(ci95))
-      check(wide, 0.5 * (ci95[1] - ci95[0]) / ns, k_wide);
-    else
-      unknown.add(result_case, 0.0);
+    if (frame_ns(result_case) <= 0.0) continue;
+    times.add(result_case, result_case.timing->frame_ns, launches_of(result_case));
     if (const auto modes = modes_of(result_case)) two.add(result_case, modes->high / modes->low);
     const Disturbed disturbed = result_case.timing->disturbed.value_or(Disturbed());
     check(others, disturbed.others_cores, k_others_cores);
@@ -132,17 +158,37 @@ std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std
     check(hot, static_cast<double>(disturbed.throttled), 0.0);
   }
   std::vector<std::string> out;
-  if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));
-  if (wide.is_any()) out.push_back(wide_warning(wide, timed));
-  if (two.is_any()) out.push_back(modes_warning(two, timed));
-  if (moving.is_any()) out.push_back(clock_warning(moving));
+  times.add_warnings(out, "stop other programs");
+  if (two.is_any()) out.push_back(modes_warning(two, times));
   add_machine_warnings(out, others, stolen, hot, without_times);
   return out;
 }
 
-std::string timing_warnings(const std::vector<Case>& cases) {
+std::vector<std::string> device_doubts(const Result& result) {
+  std::vector<std::string> out;
+  if (result.device && result.device->type == "software") return out;
+  IntervalDoubts times(" on the device");
+  Doubt moving;
+  for (const Case& result_case : result.cases) {
+    if (!result_case.device) continue;
+    const result::DeviceTimes& device = *result_case.device;
+    if (device.run_ns.median > 0.0) times.add(result_case, device.run_ns, device.launches.value_or(1));
+    if (const double spread = clock_spread(result_case); spread > k_clock_spread) moving.add(result_case, spread);
+  }
+  times.add_warnings(out, "leave the device to this run");
+  if (moving.is_any()) out.push_back(clock_warning(moving));
+  return out;
+}
+
+std::vector<std::string> timing_doubts(const Result& result) {
+  std::vector<std::string> out = timing_doubts(result.cases);
+  std::ranges::move(device_doubts(result), std::back_inserter(out));
+  return out;
+}
+
+std::string timing_warnings(const Result& result) {
   std::string out;
-  for (const std::string& doubt : timing_doubts(cases)) out += "warning: " + doubt + "\n";
+  for (const std::string& doubt : timing_doubts(result)) out += "warning: " + doubt + "\n";
   return out;
 }
 

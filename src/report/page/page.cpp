@@ -49,7 +49,7 @@ std::string page(const std::vector<NamedResult>& results, const std::string& com
     data.results.push_back({.file = printable(named.file),
                             .recorded = named.result,
                             .cases = page_cases(named.result),
-                            .doubts = timing_doubts(named.result.cases),
+                            .doubts = timing_doubts(named.result),
                             .ratios = ratio_rankings(named.result),
                             .costs = page_costs(named.result)});
   for (const std::string& set : result::sample_set_names())

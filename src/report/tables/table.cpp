@@ -436,7 +436,7 @@ std::string render_table(const result::Result& result, bool colour) {
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
          reaction_table(result) + reading_table(result) + fallback_table(result) + precision_table(result) +
          pre_cull_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) +
-         warnings_text(result) + timing_warnings(cases);
+         warnings_text(result) + timing_warnings(result);
 }
 
 }  // namespace clusterbench::report
