@@ -90,7 +90,7 @@ TEST(GuardedProcess, of_several_threads_tells_the_call_of_the_one_that_crashed) 
   ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     std::atomic<int> waiting{0};
-    std::vector<std::jthread> threads;
+    std::vector<std::thread> threads;
     for (int i = 0; i < 6; ++i)
       threads.emplace_back([&, i] {
         note_setting("seed " + std::to_string(i));
@@ -99,6 +99,7 @@ TEST(GuardedProcess, of_several_threads_tells_the_call_of_the_one_that_crashed) 
         if (i == 4) std::raise(SIGFPE);
         for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
       });
+    for (std::thread& thread : threads) thread.join();
   });
   ASSERT_TRUE(end.call);
 #ifndef CLUSTERBENCH_SANITIZED  // which handle the signal

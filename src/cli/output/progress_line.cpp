@@ -22,12 +22,18 @@ std::string minutes_and_seconds(double seconds) {
 
 ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds print_every)
     : terminal_(terminal), quiet_(quiet), print_every_(print_every) {
-  if (!quiet_ && !terminal_.interactive)
-    printer_ = std::jthread([this](const std::stop_token& stop) { print_when_silent(stop); });
+  if (!quiet_ && !terminal_.interactive) printer_ = std::thread([this] { print_when_silent(); });
 }
 
 ProgressLine::~ProgressLine() {
   clear();
+  if (!printer_.joinable()) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_one();
+  printer_.join();
 }
 
 std::string ProgressLine::line() const {
@@ -48,11 +54,10 @@ void ProgressLine::print_line(const std::string& line) {
 }
 
 // A step may take longer than a reader of a log wants to wait for an update.
-void ProgressLine::print_when_silent(const std::stop_token& stop) {
+void ProgressLine::print_when_silent() {
   std::unique_lock lock(mutex_);
-  while (!stop.stop_requested()) {
-    changed_.wait_until(lock, stop, printed_at_ + print_every_, [] { return false; });
-    if (stop.stop_requested() || Clock::now() - printed_at_ < print_every_) continue;
+  while (!ended_.wait_until(lock, printed_at_ + print_every_, [this] { return has_ended_; })) {
+    if (Clock::now() - printed_at_ < print_every_) continue;
     if (has_last_)
       print_line(line());
     else

@@ -33,7 +33,7 @@ class ProgressLine {
 
   std::string line() const;
   void print_line(const std::string& line);
-  void print_when_silent(const std::stop_token& stop);
+  void print_when_silent();
 
   os::Terminal terminal_;
   bool quiet_;
@@ -42,11 +42,12 @@ class ProgressLine {
   Clock::time_point start_ = Clock::now(), drawn_at_{};
 
   std::mutex mutex_;  // for the members below
-  std::condition_variable_any changed_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;
   run::Progress last_;
   bool has_last_ = false;                        // a step is in progress
   Clock::time_point printed_at_ = Clock::now();  // time of the last permanent line
-  std::jthread printer_;                         // only if the output is not a terminal
+  std::thread printer_;                          // only if the output is not a terminal; libc++ has no std::jthread
 };
 
 }  // namespace clusterbench::cli
