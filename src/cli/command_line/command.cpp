@@ -23,11 +23,14 @@ constexpr Number k_largest = std::numeric_limits<Number>::max();
 // every range and reads 2^64 as 2^64 - 1.
 template <class Number>
 std::optional<Number> parsed_number(const std::string& word) {
-  if constexpr (std::is_floating_point_v<Number>) return decimal_number(word);
-  Number value{};
-  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failed != std::errc() || end != word.data() + word.size()) return {};
-  return value;
+  if constexpr (std::is_floating_point_v<Number>) {
+    return decimal_number(word);
+  } else {
+    Number value{};
+    const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (failed != std::errc() || end != word.data() + word.size()) return {};
+    return value;
+  }
 }
 
 template <class Number>
