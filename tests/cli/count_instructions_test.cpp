@@ -188,6 +188,19 @@ TEST(Count, one_case_alone_counts_like_among_others) {
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(among[4 + i] / one[i], 1.0, 1e-3) << i;
 }
 
+TEST(Count, methods_on_a_device_are_left_out_of_it_and_measured_all_the_same) {
+  const CountPlace place;
+  SKIP_WITHOUT(place, "callgrind");
+  const std::string out = (place.folder / "r.json").string();
+  const Outcome done = place.run("--count=callgrind --assigner exact-fast,gpu-cells --filter packed -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json result = Json::parse(file_text(out));
+  if (!result["skipped"].empty()) GTEST_SKIP() << result["skipped"][0]["reason"];
+  ASSERT_EQ(result["cases"].size(), 2u);
+  for (const Json& counted : result["cases"])
+    EXPECT_EQ(counted.contains("count"), counted["assigner"]["name"] == "exact-fast") << counted["name"];
+}
+
 TEST(Count, a_failure_under_valgrind_is_told_with_its_last_words) {
   const CountPlace place;
   place.write_valgrind("echo 'valgrind: no such tool' >&2; exit 3");

@@ -2,6 +2,7 @@
 // beyond a group's size, a million cells, lists that outgrow their buffer, buffers above the device's limit.
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "gpu/device_test.h"
 #include "gpu/reference_lists.h"
 
@@ -164,6 +165,24 @@ TEST_F(DeviceSizes, whose_buffers_are_above_the_devices_limit_are_refused_with_t
   }
   run.assign(few.input(view::lights_in(few.frame, grid::space_of(few.grid, few.frame))));
   EXPECT_EQ(first_difference(run.cell_lists(), reference_lists(params, few)), "");
+}
+
+// As the device's limit does: what needs more memory than the configuration allows ends its own cases alone.
+TEST_F(DeviceSizes, whose_buffers_are_above_the_users_limit_fail_on_the_device) {
+  const std::uint64_t before = memory_limit();
+  const Setting setting = setting_of({100, 100, 100}, lights_in_view(320, 4, 0.05, false));
+  const AssignerDescriptor& row = *assign::find_assigner("gpu-lights");
+  assign::AssignerRun run(row, Params(row.params), assign::Answer::lists);
+  run.build(setting.grid, {.spots = false, .boxes = false});
+  set_memory_limit(16 << 20);
+  try {
+    run.assign(setting.input(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame))));
+    ADD_FAILURE() << "not refused";
+  } catch (const DeviceError& error) {
+    EXPECT_TRUE(std::string(error.message()).starts_with("limits.memory_mib: 40000000 bits of cells and lights would "))
+        << error.message();
+  }
+  set_memory_limit(before);
 }
 
 }  // namespace

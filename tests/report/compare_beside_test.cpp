@@ -91,6 +91,11 @@ TEST(Compare, beside_another_program_only_what_both_did_is_compared) {
   EXPECT_TRUE(holds(comparison["warnings"], "the other program does not have them, not compared: hall/walk"));
   EXPECT_TRUE(holds(comparison["warnings"], "bytes, samples and whatever else is counted were not"));
   EXPECT_NE(comparison_text(comparison).find("1 case of the new not compared"), std::string::npos);
+  next["cases"][1]["assigner"]["on_device"] = true;
+  const Json on_device = compared(next, next, 0.02);
+  EXPECT_TRUE(
+      holds(on_device["warnings"], "methods on a device are not measured side by side, not compared: hall/walk"));
+  EXPECT_FALSE(holds(on_device["warnings"], "the other program does not have them"));
   EXPECT_FALSE(holds(compared(base, next, 0.02)["warnings"], "the other program")) << "its own result is at hand";
 }
 

@@ -68,9 +68,9 @@ TEST(DeviceCases, are_in_a_block_of_their_own_with_times_of_their_own) {
   const std::size_t own = table.find("frustum 64px"), on_card = table.find("on Card: frustum 64px");
   ASSERT_NE(on_card, std::string::npos) << table;
   EXPECT_LT(own, on_card);
-  EXPECT_NE(table.find("device us  x floor  warm  upload  readback", on_card), std::string::npos) << table;
+  EXPECT_NE(table.find("device us      ±  x floor  warm  upload  readback", on_card), std::string::npos) << table;
   EXPECT_EQ(table.substr(0, on_card).find("device us"), std::string::npos) << table;
-  EXPECT_NE(table.find("    gpu-cells       2.00     4.00  1.50    0.10      0.20"), std::string::npos) << table;
+  EXPECT_NE(table.find("    gpu-cells       2.00  0.2 %     4.00  1.50    0.10      0.20"), std::string::npos) << table;
   EXPECT_NE(table.find("from lights to lists, with cold caches (warm: without)"), std::string::npos) << table;
   EXPECT_EQ(table.find("build: of the cells"), std::string::npos) << table;
 }
@@ -117,14 +117,35 @@ TEST(DeviceCases, without_an_interval_or_with_a_wide_one_are_doubted_unless_they
   EXPECT_EQ(warnings_with(1900.0, 2150.0).find("on the device"), std::string::npos);
   EXPECT_NE(warnings_with(1500.0, 2500.0)
                 .find("warning: 1 of 1 time on the device with intervals wider than ±10 %, the widest -25/+25 %: "
-                      "frustum 64px/gpu-cells/packed; leave the device to this run, or try --launches 20"),
+                      "hall/walk/frustum 64px/gpu-cells/packed; leave the device to this run, or try --launches 20"),
             std::string::npos)
       << warnings_with(1500.0, 2500.0);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(warnings_with(unknown, unknown).find("warning: 1 of 1 time on the device without an interval: "),
             std::string::npos)
       << warnings_with(unknown, unknown);
-  EXPECT_EQ(warnings_with(unknown, unknown, gpu::DeviceType::software).find("on the device"), std::string::npos);
+  const std::string of_software = warnings_with(unknown, unknown, gpu::DeviceType::software);
+  EXPECT_EQ(of_software.find("on the device"), std::string::npos) << of_software;
+  EXPECT_NE(of_software.find("warning: times on Card are a processor's and no GPU's"), std::string::npos)
+      << of_software;
+}
+
+TEST(DeviceCases, of_software_are_in_the_order_of_the_configuration) {
+  const auto table_with = [](gpu::DeviceType type) {
+    run::Result result = with_device(2000.0, type);
+    run::CaseResult faster = case_by_hand("faster", "gpu-group", 1.0);
+    faster.timing.reset();
+    faster.on_device = true;
+    faster.device = result.cases[2].device;
+    faster.device->cold->run_ns.median = 1000.0;
+    result.cases.push_back(faster);
+    result.planned_ids.push_back("faster");
+    return render_table(test::result_of(json_of(result)), false);
+  };
+  const std::string sorted = table_with(gpu::DeviceType::discrete), in_order = table_with(gpu::DeviceType::software);
+  EXPECT_LT(sorted.find("gpu-group "), sorted.find("gpu-cells ")) << sorted;
+  EXPECT_GT(in_order.find("gpu-group "), in_order.find("gpu-cells ")) << in_order;
+  EXPECT_NE(in_order.find("on Card (software, not sorted by time): frustum 64px"), std::string::npos) << in_order;
 }
 
 TEST(DeviceCases, of_older_versions_are_read) {
@@ -148,7 +169,7 @@ TEST(DeviceCases, are_told_of_after_the_conclusion_on_the_processor) {
 
 TEST(DeviceCases, of_software_rank_nothing) {
   const std::string text = conclusion_of(with_device(2000.0, gpu::DeviceType::software));
-  EXPECT_NE(text.find("On Card: 1 case, whose times rank nothing"), std::string::npos) << text;
+  EXPECT_NE(text.find("On Card: its times rank nothing"), std::string::npos) << text;
   EXPECT_EQ(text.find("fastest, in"), std::string::npos) << text;
 }
 
@@ -170,6 +191,11 @@ TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
   EXPECT_FALSE(compared(base, warm, 0.02)["cases"][2].contains("hint"));
   const Json comparison = compared(base, elsewhere, 0.02);
   EXPECT_FALSE(comparison["cases"][2].contains("hint"));
+  EXPECT_TRUE(
+      testing::holds(comparison["warnings"],
+                     "times of methods on a device are not compared: the base ran on Card with cold caches, the "
+                     "new result on Other card with cold caches"))
+      << comparison["warnings"];
   EXPECT_EQ(comparison["cases"][0]["hint"], "none") << "times of the processor are compared all the same";
 }
 

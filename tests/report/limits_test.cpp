@@ -103,7 +103,7 @@ TEST(Limits, what_no_case_has_fails) {
   Json bare{{"name", "a"}};
   EXPECT_EQ(findings_of("frame_us > 200", bare).broken,
             (Lines{"'frame_us > 200' could not be checked: no case has frame_us (--no-timing or "
-                   "timing.measure: false leaves times out)"}));
+                   "timing.measure: false leaves times out; methods on a device have those called device_...)"}));
   bare["shading"] = {{"missed", 0}, {"needed", 0}};
   EXPECT_EQ(findings_of("unlit > 0", bare).broken.size(), 1u) << "a share of nothing";
   bare["shading"] = {{"missed", 9}, {"needed", 200}, {"overshade", nullptr}};

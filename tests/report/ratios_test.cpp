@@ -204,6 +204,14 @@ TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
   EXPECT_NE(wide.find("3 of 3 times with intervals wider than ±10 %"), std::string::npos) << wide;
   EXPECT_NE(wide.find("--launches 12"), std::string::npos) << wide;
 
+  result::Result cold = timed_result({{1000}}, 1);
+  result::WarmTimes& warm = cold.cases[0].timing->warm.emplace();
+  warm.frame_ns.samples = {900, 901, 902, 903, 904, 905, 906};
+  EXPECT_NE(timing_warnings(cold).find("6 rounds of a single one (1 of 7 rounds had cold caches, since each reads more "
+                                       "memory than all caches hold); try --launches 5"),
+            std::string::npos)
+      << timing_warnings(cold);
+
   std::vector<double> alternating;
   for (int i = 0; i < 18; ++i) alternating.push_back(i % 2 == 0 ? 1000.0 + i : 1200.0 + i);
   const std::string two = timing_warnings(timed_result({alternating}));

@@ -25,8 +25,9 @@ ExitCode show_ratios(const RatioFlags& flags) {
   const report::RatioRequest& request = flags.request;
   const result::Ratios ratios = report::ratios_of(report::read_result(flags.result), request);
   if (ratios.blocks.empty())
-    throw Error(flags.result, "",
-                "has no times" + (request.methods.empty() ? "" : " of methods like " + request.methods));
+    throw Error(
+        flags.result, "",
+        "has no times of the processor" + (request.methods.empty() ? "" : " of methods like " + request.methods));
   if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(ratios));
   if (!flags.json.empty()) write_output(flags.json, result::to_json(ratios));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, flags.all_pairs));

@@ -56,6 +56,16 @@ std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::
   return ids;
 }
 
+// Of them those whose method works on the processor: a device's instructions are not counted.
+std::vector<std::string> ids_counted(const config::Config& config, const run::Plan& plan,
+                                     const std::vector<std::string>& done) {
+  std::vector<std::string> ids = ids_left(plan, done);
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& case_plan : group.cases)
+      if (run::method_of(config, case_plan).on_device) std::erase(ids, case_plan.id);
+  return ids;
+}
+
 // The files that the run reads. Throws Error if it would write to one of them, or to one file twice.
 std::vector<std::string> inputs_kept(const RunFlags& flags, const config::Config& config) {
   std::vector<std::string> inputs = files_of(flags.inputs, config);
@@ -139,7 +149,7 @@ class MeasuredRun {
 
   // Counting comes first: errors are reported at once, and no timed work runs at the same time.
   run::Counts counted(CountWay way, const std::vector<std::string>& done, const std::atomic<bool>& stop) const {
-    const CountTask task{config_, plan_, ids_left(plan_, done)};
+    const CountTask task{config_, plan_, ids_counted(config_, plan_, done)};
     ProgressLine progress(screen_, flags_.quiet);
     run::Progress now;
     now.cases_total = task.ids.size();

@@ -20,10 +20,20 @@ float side_beyond(float at, vec2 slopes, float depth) {
   return at < sides.x ? slopes.x : at > sides.y ? slopes.y : 0.0;
 }
 
+// The slopes of the corners that lie farthest along n, the same at each depth, as no depth is negative.
+vec2 slopes_along(vec3 n, Sides cell) {
+  return vec2(n.x > 0.0 ? cell.x.y : cell.x.x, n.y > 0.0 ? cell.y.y : cell.y.x);
+}
+
 // From the cell's point nearest to the centre. At each depth the cell is a rectangle, so the square of the distance is
 // convex in the depth, and quadratic as long as the centre lies beyond the same sides. The depth of the least square for
-// the sides at one depth is where to look at the sides next; after three turns they rarely change. The result is scaled by
-// a power of two to about 1: squares neither vanish, as lengths are 1e-15 m or more, nor overflow, but for those of a light
+// the sides at one depth is where to look at the sides next; after three turns they rarely change.
+//
+// Within the cell's depths the way is normal to the sides that the centre lies beyond, and so to the edge between two: its
+// depth follows from these sides' slopes, and not from the difference of two depths, whose roundoff the far corner would
+// multiply by (its way / the gap). At an end of the depths the way points out of the cell by no less.
+//
+// The result is scaled by a power of two to about 1: squares neither vanish, as lengths are 1e-15 m or more, nor overflow, but for those of a light
 // without an end, which is apart from nothing.
 vec3 way_out(vec3 center, Sides cell) {
   float depth = clamp(center.z, cell.depth.x, cell.depth.y);
@@ -35,6 +45,9 @@ vec3 way_out(vec3 center, Sides cell) {
   }
   precise vec2 x = cell.x * depth, y = cell.y * depth;
   precise vec3 way = center - vec3(clamp(center.x, x.x, x.y), clamp(center.y, y.x, y.y), depth);
+  vec2 slopes = slopes_along(way, cell);
+  precise float normal = -(way.x * slopes.x + way.y * slopes.y);
+  way.z = depth <= cell.depth.x ? min(way.z, normal) : depth >= cell.depth.y ? max(way.z, normal) : normal;
   uint exponent = floatBitsToUint(max(max(abs(way.x), abs(way.y)), abs(way.z))) & 0x7f800000u;
   precise vec3 scaled = way * uintBitsToFloat((254u << 23) - exponent);
   return scaled;
@@ -68,13 +81,13 @@ float tilt(vec3 n, vec3 center, vec2 slopes, float far) {
   return far > reaches_far && moves < beside ? max(most, 0.0) : 0.0;
 }
 
-// The same slopes lie farthest along n at each depth, as no depth is negative. Squares are compared: that of the gap is off
+// Squares are compared: that of the gap is off
 // by 1 roundoff, those of the radius by 1 and of n by 3, their product by 1: 6 of themselves, so 3 of the radius after the
 // root. The ball is padded by 4 of its reach, which is more.
 bool is_apart(vec4 ball, Sides cell) {
   vec3 center = vec3(ball.xy, -ball.z);
   vec3 n = way_out(center, cell);
-  vec2 slopes = vec2(n.x > 0.0 ? cell.x.y : cell.x.x, n.y > 0.0 ? cell.y.y : cell.y.x);
+  vec2 slopes = slopes_along(n, cell);
   precise float toward_eye = n.z - tilt(n, center, slopes, cell.depth.y);
   n.z = toward_eye;
   float near = least_gap(n, center, slopes, cell.depth.x), far = least_gap(n, center, slopes, cell.depth.y);

@@ -16,7 +16,11 @@ void Buffers::reserve(std::uint32_t binding, std::uint64_t bytes, const char* na
   if (bytes > facts.max_buffer_bytes)
     throw DeviceError(std::string(name) + " need a buffer of " + std::to_string(bytes) + " bytes; " + facts.name +
                       " allows " + std::to_string(facts.max_buffer_bytes) + "; use fewer lights or cells");
-  check_memory(name, bytes, 1);
+  try {
+    check_memory(name, bytes, 1);
+  } catch (const Error& error) {
+    throw DeviceError(error.where() + ": " + error.message());
+  }
   impl_->device.free(memory);
   memory = impl_->device.allocate(bytes, Place::device);
   impl_->bind(binding);

@@ -64,6 +64,10 @@ bool runs_on_device(const Case& result_case) {
   return result_case.assigner.on_device.value_or(false);
 }
 
+bool has_software_device(const result::Result& result) {
+  return result.device && result.device->type == "software";
+}
+
 bool is_at_surfaces(const std::string& assigner) {
   const assign::AssignerDescriptor* method = assign::find_assigner(assigner);
   return method != nullptr && method->at_surfaces;

@@ -42,6 +42,8 @@ bool is_at_surfaces(const std::string& assigner);
 std::string at_surfaces_text(const std::string& assigner);
 
 // The frame times of a case's rounds; empty without timing.
+// True if times of the result's device are a processor's (lavapipe, SwiftShader): they rank nothing.
+bool has_software_device(const result::Result& result);
 std::vector<double> frame_rounds(const result::Case& result_case);
 
 // The seed of resampling.

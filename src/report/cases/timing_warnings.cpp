@@ -75,6 +75,16 @@ std::uint64_t launches_of(const Case& result_case) {
   return result_case.timing->launches.value_or(1);
 }
 
+// Why there are fewer samples than rounds: " (...)", or "" if there are not.
+std::string few_cold_rounds(const Case& result_case) {
+  const auto* warm = result::part<&Case::timing, &Timing::warm>(result_case);
+  if (warm == nullptr) return "";
+  const std::size_t cold = result_case.timing->frame_ns.samples.size(), rounds = warm->frame_ns.samples.size();
+  return cold < rounds ? " (" + std::to_string(cold) + " of " + number_of(rounds, "round") +
+                             " had cold caches, since each reads more memory than all caches hold)"
+                       : "";
+}
+
 // Of times of the processor, or of those `where`, the ones whose 95 % interval is unknown or wide.
 class IntervalDoubts {
  public:
@@ -95,7 +105,8 @@ class IntervalDoubts {
   // `remedy`: what else than launches helps against wide intervals.
   void add_warnings(std::vector<std::string>& out, const std::string& remedy) const {
     if (unknown_.is_any())
-      out.push_back(cases(unknown_) + " without an interval: " + what_intervals_take() + "; try --launches 5");
+      out.push_back(cases(unknown_) + " without an interval: " + what_intervals_take() +
+                    few_cold_rounds(unknown_.worst()) + "; try --launches 5");
     if (wide_.is_any())
       out.push_back(cases(wide_) + " with intervals wider than ±10 %, the widest " +
                     (widest_.starts_with('-') ? "" : "±") + widest_ + ": " + wide_.name() + "; " + remedy +
@@ -166,7 +177,12 @@ std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std
 
 std::vector<std::string> device_doubts(const Result& result) {
   std::vector<std::string> out;
-  if (result.device && result.device->type == "software") return out;
+  if (has_software_device(result)) {
+    if (std::ranges::any_of(result.cases, [](const Case& one) { return one.device.has_value(); }))
+      out.push_back("times on " + shown(result.device->name) +
+                    " are a processor's and no GPU's: they rank nothing, and budgets of them say nothing of a GPU");
+    return out;
+  }
   IntervalDoubts times(" on the device");
   Doubt moving;
   for (const Case& result_case : result.cases) {

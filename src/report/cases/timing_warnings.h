@@ -13,8 +13,8 @@ namespace clusterbench::report {
 // the results that do not depend on times.
 std::vector<std::string> timing_doubts(const std::vector<result::Case>& cases,
                                        const std::string& without_times = "count instructions instead (--count)");
-// The same and that of a device's times: intervals, and a clock that changed by more than 5 %. Not of a software
-// device, whose times rank nothing.
+// The same and that of a device's times: intervals, and a clock that changed by more than 5 %. Of a software device
+// only that its times rank nothing.
 std::vector<std::string> timing_doubts(const result::Result& result);
 // The latter as lines that begin with "warning: "; "" without a problem.
 std::string timing_warnings(const result::Result& result);

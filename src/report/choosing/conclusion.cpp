@@ -141,7 +141,9 @@ measure::Interval by_prices(const Choice& choice) {
 
 std::string against_text(const Choice& choice) {
   if (choice.against == nullptr)
-    return choice.alike.empty() ? "; no other case was measured that is conservative and loses no lights" : "";
+    return choice.alike.empty() ? "; no other case was measured that ranks beside it (on the processor, conservative, "
+                                  "without lost lights)"
+                                : "";
   const std::string out =
       "; " + case_title(*choice.against->result_case) + " costs " +
       more_text(choice.times_as_much(), choice.ratio ? choice.ratio->ci95 : measure::Interval{}, by_prices(choice));

@@ -55,8 +55,7 @@ std::string device_text(const SceneView& view, const std::optional<result::Devic
   const std::string on = " On " + shown(device->name) + ": ";
   if (timed == 0) return on + "nothing was timed.";
   if (device->type == "software")
-    return on + number_of(timed, "case") +
-           ", whose times rank nothing: they are those of a driver that computes on the processor, and no GPU's.";
+    return on + "its times rank nothing: they are those of a driver that computes on the processor, and no GPU's.";
   std::string out;
   for (const std::vector<WeighedCase>& grid : grids) out += (out.empty() ? on : "; ") + fastest_text(grid);
   return out.empty() ? "" : out + ". Times of a device and of the processor are not compared.";

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/text.h"
 #include "report/cases/columns.h"
+#include "report/cases/contender.h"
 #include "report/cases/json_values.h"
+#include "report/comparing/comparability.h"
 
 namespace clusterbench::report {
 namespace {
@@ -39,6 +42,32 @@ std::vector<std::string> without_renamed(std::vector<std::string> names, const s
   return names;
 }
 
+// Of these names those of cases on a device, and the others.
+std::pair<std::vector<std::string>, std::vector<std::string>> on_device_and_others(
+    const Result& result, const std::vector<std::string>& names) {
+  std::set<std::string> device_names;
+  for (const result::Case& one : result.cases)
+    if (runs_on_device(one)) device_names.insert(one.name);
+  std::vector<std::string> on_device, others;
+  for (const std::string& name : names) (device_names.contains(name) ? on_device : others).push_back(name);
+  return {on_device, others};
+}
+
+// Whose times the result has, with the caches of these times.
+std::vector<std::string> devices_of(const Result& result) {
+  std::set<std::string> devices;
+  for (const result::Case& one : result.cases)
+    if (one.device)
+      devices.insert(shown(one.device->device) +
+                     (one.device->caches ? " with " + *one.device->caches + " caches" : ""));
+  return {devices.begin(), devices.end()};
+}
+
+bool have_common(const std::vector<std::string>& some, const std::vector<std::string>& others) {
+  return std::ranges::any_of(some,
+                             [&](const std::string& one) { return std::ranges::find(others, one) != others.end(); });
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Result& base, const Result& next, const Comparison& comparison,
@@ -57,8 +86,16 @@ std::vector<std::string> warnings_of(const Result& base, const Result& next, con
     if (!prices.empty())
       warnings.push_back(joined(prices) + ", another setting: modelled costs follow it and are not compared");
   }
+  const std::vector<std::string> base_devices = devices_of(base), next_devices = devices_of(next);
+  if (!base_devices.empty() && !next_devices.empty() && !have_common(base_devices, next_devices))
+    warnings.push_back("times of methods on a device are not compared: the base ran on " + joined(base_devices) +
+                       ", the new result on " + joined(next_devices));
   const std::vector<std::string> only_in_base = without_renamed(comparison.only_in_base, comparison.renamed),
-                                 only_in_new = without_renamed(comparison.only_in_new, comparison.renamed);
+                                 new_names = without_renamed(comparison.only_in_new, comparison.renamed);
+  const auto [on_device, only_in_new] =
+      is_beside ? on_device_and_others(next, new_names) : std::pair(std::vector<std::string>(), new_names);
+  if (!on_device.empty())
+    warnings.push_back("methods on a device are not measured side by side, not compared: " + listed(on_device));
   if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));
   if (!only_in_new.empty())
     warnings.push_back(std::string(is_beside ? "the other program does not have them, not compared: "

@@ -117,6 +117,10 @@ struct Column {
   }
 };
 
+std::string device_interval_text(const Case& result_case) {
+  return result_case.device ? interval_text(result_case.device->run_ns) : "-";
+}
+
 constexpr Column k_columns[] = {
     {.heading = k_frame_heading, .figure = "frame_us", .format = time_text, .needed = &Extras::times},
     {.heading = "±", .own_text = frame_interval_text, .needed = &Extras::times},
@@ -127,6 +131,7 @@ constexpr Column k_columns[] = {
     {.heading = k_cost_heading, .own_text = cost_text, .needed = &Extras::costs},
     {.heading = "instr", .figure = "assign_instructions", .format = short_count, .needed = &Extras::instructions},
     {.heading = "device us", .figure = "device_us", .format = time_text, .needed = &Extras::device},
+    {.heading = "±", .own_text = device_interval_text, .needed = &Extras::device},
     {.heading = "x floor", .figure = "device_floor", .format = two_digits, .needed = &Extras::device},
     {.heading = "warm", .figure = "device_warm_us", .format = time_text, .needed = &Extras::device_cold},
     {.heading = "build", .figure = "device_build_us", .format = time_text, .needed = &Extras::device_builds},
@@ -330,11 +335,10 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
   if (extras.device)
     out += std::string("device: the device's work for a frame by its own clock, from lights to lists") +
            (extras.device_cold ? ", with cold caches (warm: without)" : "") +
-           "; x floor: times what as many "
-           "steps take\nthat only write as much; upload, readback: of the frame's lights and lists" +
+           "; ±: half of its 95 % interval;\nx floor: times what as many steps take that only write as much; upload, "
+           "readback: of the frame's lights and lists" +
            (extras.device_builds ? "; build: of the cells, when the grid changes" : "") +
-           ". These times are not "
-           "compared with the processor's.\n";
+           ".\nThese times are not compared with the processor's.\n";
   return out + "bytes: headers and indices, largest of all frames.\n";
 }
 
@@ -345,7 +349,8 @@ struct TableBlock {
   std::vector<const Case*> cases;
 };
 std::vector<TableBlock> table_blocks(const result::Result& result, const result::Scene& scene) {
-  const std::string on_device = "on " + (result.device ? shown(result.device->name) : std::string("a device")) + ": ";
+  const std::string on_device = "on " + (result.device ? shown(result.device->name) : std::string("a device")) +
+                                (has_software_device(result) ? " (software, not sorted by time): " : ": ");
   std::vector<TableBlock> lists, device_lists, searched;
   std::map<std::string, std::size_t> index_of;  // of a heading among its blocks
   for (const Case& result_case : result.cases) {
@@ -414,8 +419,8 @@ std::string render_table(const result::Result& result, bool colour) {
       std::vector<Line> lines;
       for (const Case* result_case : block.cases)
         lines.push_back(line_of(*result_case, on_front.contains(result_case->id), of_block, by, sets));
-      std::stable_sort(lines.begin(), lines.end(),
-                       [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
+      if (!(runs_on_device(sampled) && has_software_device(result)))
+        std::ranges::stable_sort(lines, {}, &Line::sort_key);
       has_alike |= mark_alike(result, heads, by, lines);
       std::vector<Cells> rows{heads};
       for (const Line& line : lines) {

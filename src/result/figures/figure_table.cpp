@@ -10,7 +10,8 @@ namespace {
 using enum Better;
 using enum Basis;
 
-constexpr std::string_view k_of_times = " (--no-timing or timing.measure: false leaves times out)";
+constexpr std::string_view k_of_times =
+    " (--no-timing or timing.measure: false leaves times out; methods on a device have those called device_...)";
 constexpr std::string_view k_of_devices = " (only methods that run on a device have it, where times are measured)";
 constexpr std::string_view k_of_cold_devices =
     " (only methods that run on a device have it, where times with cold caches are measured)";
