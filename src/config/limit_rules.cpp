@@ -139,6 +139,8 @@ class RuleParser {
     refuse("ends with '" + std::string(without_blanks(text)) + "', which is no number");
   }
 
+  bool is_of_device() const { return rule_.figure.starts_with("device_") || rule_.figure.starts_with("reading_"); }
+
   void check_figure() const {
     const result::Figure* figure = result::figure_named(rule_.figure);
     if (figure == nullptr) {
@@ -147,10 +149,11 @@ class RuleParser {
              "; there are: " + joined(names) + at_samples_text());
     }
     if (rule_.is_relative && figure->rests_on_times())
-      refuse(
-          "holds times of two runs against each other, and two runs of one program can differ several-fold; hold "
-          "instructions against the "
-          "baseline (--count), or measure both programs side by side (--baseline-binary)");
+      refuse("holds times of two runs against each other, and two runs of one program can differ several-fold; " +
+             std::string(is_of_device() ? "set a budget in its own unit, as 'device_us > 50', or see the hints of "
+                                          "clusterbench compare"
+                                        : "hold instructions against the baseline (--count), or measure both programs "
+                                          "side by side (--baseline-binary)"));
   }
 
   std::string text_, file_, where_;

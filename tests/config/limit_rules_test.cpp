@@ -87,6 +87,7 @@ TEST(LimitRules, that_are_none_are_refused_with_what_is_allowed) {
       {"lihgts < 1", "names no figure of a case (did you mean 'lights'?)"},
       {"frame_us > +5 %", "holds times of two runs against each other"},
       {"frame_cost_us > 5%", "--baseline-binary"},
+      {"device_us > +5 %", "set a budget in its own unit, as 'device_us > 50'"},
   };
   for (const auto& [text, part] : rows)
     EXPECT_NE(refusal_of_rule(text).find(part), std::string::npos) << text << ": " << refusal_of_rule(text);

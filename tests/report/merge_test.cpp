@@ -77,7 +77,10 @@ TEST(Merge, costs_of_other_models_are_refused_and_the_model_stays_with_the_front
 
 TEST(Merge, a_case_of_two_parts_is_a_conflict_that_names_both) {
   const std::string said = refusal({shard("a.json", "slow"), shard("b.json", "fast"), shard("c.json", "fast")});
-  EXPECT_NE(said.find("c.json: /cases: has id 'fast', and b.json has it, too"), std::string::npos) << said;
+  EXPECT_NE(said.find("c.json: /cases: has id 'fast' (hall/walk/frustum 64px/aabb/packed), and b.json has it, too; a "
+                      "merged result has each case once: clusterbench report shows both"),
+            std::string::npos)
+      << said;
 }
 
 TEST(Merge, two_scenes_of_one_name_are_a_conflict) {

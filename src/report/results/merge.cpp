@@ -56,12 +56,21 @@ class Union {
       all_.push_back(item);
     } else if (!may_repeat || !are_same(all_[earlier->second.index], item)) {
       throw Error(file, std::string("/") + where_,
-                  std::string("has ") + key_name_ + " '" + name + "', and " + earlier->second.file + " has it, too" +
-                      (may_repeat ? ", but it is another" : ""));
+                  std::string("has ") + key_name_ + " '" + name + "'" + title_of(item) + ", and " +
+                      earlier->second.file + " has it, too" + (may_repeat ? ", but it is another" : k_advice));
     }
   }
 
  private:
+  static std::string title_of(const Item& item) {
+    if constexpr (std::is_same_v<Item, result::Case>) return " (" + item.name + ")";
+    return "";
+  }
+  static constexpr const char* k_advice =
+      std::is_same_v<Item, result::Case>
+          ? "; a merged result has each case once: clusterbench report shows both results, compare compares them"
+          : "";
+
   struct Place {
     std::size_t index;
     std::string file;
