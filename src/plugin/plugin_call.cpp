@@ -6,6 +6,10 @@
 #include <string_view>
 #include <typeinfo>
 
+#if __has_include(<cxxabi.h>)
+#include <cxxabi.h>
+#endif
+
 #include "core/text.h"
 
 namespace clusterbench::plugin {
@@ -22,7 +26,7 @@ std::string cut(const char* text) {
 
 // "of the type std::out_of_range"; "" where that is not known.
 std::string type_text() {
-#ifdef __GLIBCXX__
+#if __has_include(<cxxabi.h>)
   const std::type_info* type = abi::__cxa_current_exception_type();
   if (type == nullptr) return "";
   int status = 0;

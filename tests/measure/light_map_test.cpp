@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "measure/light_maps/unwrap.h"
+#include "needs.h"
 #include "scene/mesh_fixture.h"
 
 namespace clusterbench::measure {
@@ -122,6 +123,7 @@ TEST(LightMap, facing_leaves_out_lights_behind_and_in_the_plane_of_a_surface) {
 }
 
 TEST(LightMap, a_wall_hides_a_light_and_one_that_moves_does_not) {
+  NEEDS(embree);
   const auto lit = [](bool moves, double lamp_radius_m) {
     MeshFile file;
     file.node({{"mesh", file.mesh(strip_of(file, k_ground, k_ground_uvs))}});
@@ -222,6 +224,7 @@ Sight sight_by_loop(const MapMesh& mesh, std::uint32_t own, const Vec3d& from, c
 }
 
 TEST(LightMap, the_lights_of_every_texel_are_those_of_a_loop_over_all_lights) {
+  NEEDS(embree);
   std::uint64_t pairs = 0, hidden = 0, behind = 0, uncertain = 0;
   for (const bool double_sided : {false, true})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {

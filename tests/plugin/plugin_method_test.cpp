@@ -411,6 +411,9 @@ TEST(KeptInputs, puts_back_what_was_written) {
 }
 
 TEST(PluginMethod, that_ends_its_thread_ends_the_process_with_a_sentence_and_no_success) {
+#if defined(__GLIBC__) && defined(_LIBCPP_VERSION)
+  GTEST_SKIP() << "skipped: with libc++ no exception tells that a thread ends";
+#endif
   const auto in_a_copy_on_purpose = [] {
     os::note_own_process();
     os::keep_standard_files();  // the test reads standard error

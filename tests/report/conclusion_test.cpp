@@ -1,6 +1,7 @@
 // What a result says is to be done.
 
 #include "report/choosing/conclusion.h"
+#include "needs.h"
 
 #include <gtest/gtest.h>
 
@@ -452,6 +453,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
 }
 
 TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
+  NEEDS(embree);
   const Json objective{{"figure", "frame_cost_us"}, {"meaning", ""}, {"timed", true}};
   EXPECT_EQ(
       answer_conclusion(answer_by_hand(1.25, {1.2, 1.3}), objective),

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "assign/contract/assigner.h"
+#include "needs.h"
 #include "report/recounted_results.h"
 #include "result/figures/case_figure.h"
 
@@ -558,6 +559,7 @@ TEST(FigureRecount, has_a_formula_for_every_figure_and_none_beside) {
 }
 
 TEST(FigureRecount, of_real_runs_gives_every_figure_of_each_case) {
+  NEEDS(embree);
   const assign::AssignerRegistration device_method(on_a_device());
   Known known;
   for (const char* config : {k_street, k_mix, k_few_samples}) recount(with_readings(measured(config)), known);

@@ -13,6 +13,7 @@
 #include "config/presets/preset_library.h"
 #include "core/random.h"
 #include "effort.h"
+#include "needs.h"
 #include "report/cases/json_values.h"
 #include "report/results/result_record.h"
 #include "run/runner.h"
@@ -247,6 +248,7 @@ TEST_F(RandomPresets, who_lacks_light_at_samples_is_never_taken_and_has_no_star)
 
 // What `run --presets` says against the level as it was made, and against the figures that `size --engine` goes by.
 TEST_F(RandomPresets, all_say_so_exactly_where_there_are_more_lights_in_view_than_they_take) {
+  NEEDS(embree);
   SplitMix64 random(12);
   std::set<std::string> beyond, at_limit, below;
   for (int round = 0; round < (test::k_sanitized ? 2 : 30); ++round) {

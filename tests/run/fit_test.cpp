@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "needs.h"
 #include "places.h"
 #include "run/cases/path_frames.h"
 #include "run/passes/timing_pass.h"
@@ -136,6 +137,7 @@ TEST(FittedSlicesOnAPath, that_follow_surfaces_take_a_scene_with_triangles) {
 }
 
 TEST(FittedSlicesOnAPath, that_follow_surfaces_hold_every_visible_one) {
+  NEEDS(embree);
   config::Config config = config::parse_config(
       R"({"scenes": [{"path": "scenes/steps.glb", "frames": 3}], "viewport": [160, 90], "timing": {"measure": false},
           "assigners": ["exact-fast", "distance-fast"], "samples": {"opaque": {"divisor": 1}}, "shading": {"samples": 0},

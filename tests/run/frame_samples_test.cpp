@@ -1,6 +1,7 @@
 // Sets of samples from a scene's file to a case's result.
 
 #include "run/cases/frame_samples.h"
+#include "needs.h"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,7 @@ constexpr const char* k_all_sets =
     "mirror": {"count": 500}, "anywhere": {"count": 300}})";
 
 TEST(FrameSamples, every_set_is_asked_for_in_every_case_and_exact_lists_lose_nothing_in_view) {
+  NEEDS(embree);
   using measure::SampleSet;
   const RoomRun run = run_of(room(), k_all_sets);
   const CaseResult& exact = case_named(run, "exact-fast/packed");
@@ -139,6 +141,7 @@ TEST(FrameSamples, triangles_are_read_only_where_a_set_asks_for_them) {
 
 // Lights at y 0, an eye at y 0: the floor is below the eye. Cells that no triangle decides have the lists they had.
 TEST(FrameSamples, a_ground_stands_for_the_surfaces_of_a_scene_without_triangles_and_is_declared) {
+  NEEDS(embree);
   for (const auto& [ground, height] : {std::pair(R"("lowest")", -1.7), std::pair("-2", -2.0)}) {
     const RoomRun run =
         run_of(room(false), std::string(R"(, "samples": {"opaque": {"divisor": 1, "ground": )") + ground + "}}");
@@ -171,6 +174,7 @@ TEST(FrameSamples, a_scene_without_triangles_skips_the_sets_of_surfaces_with_the
 }
 
 TEST(FrameSamples, a_set_without_a_sample_says_so_and_lights_without_end_bound_none) {
+  NEEDS(embree);
   Json endless = Json::parse(room());
   endless["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 1e18;
   for (Json& material : endless["materials"]) material["alphaMode"] = "OPAQUE";
@@ -184,6 +188,7 @@ TEST(FrameSamples, a_set_without_a_sample_says_so_and_lights_without_end_bound_n
 }
 
 TEST(FrameSamples, cases_with_other_samples_are_other_cases_and_threads_change_nothing) {
+  NEEDS(embree);
   const RoomRun one = run_of(room(), R"(, "samples": {"opaque": {}})");
   const RoomRun finer = run_of(room(), R"(, "samples": {"opaque": {"divisor": 4}})");
   EXPECT_NE(one.plan.groups[0].cases[0].id, finer.plan.groups[0].cases[0].id);
@@ -213,6 +218,7 @@ TEST(FrameSamples, a_moved_mesh_is_another_case_with_the_same_settings) {
 }
 
 TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fails) {
+  NEEDS(embree);
   RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}})");
   CaseResult tree = case_named(run, "bvh/no lists");
   EXPECT_TRUE(failures_of(tree, {}).empty());
@@ -225,6 +231,7 @@ TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fai
 
 // Two lights of equal brightness at one point, of which a storage with room for one drops the second.
 TEST(FrameSamples, dropped_lights_are_lost_irradiance_at_the_samples_that_they_would_have_lit) {
+  NEEDS(embree);
   Json file = Json::parse(room());
   file["nodes"][2]["translation"] = file["nodes"][1]["translation"];
   const RoomRun run = run_of(
@@ -276,6 +283,7 @@ constexpr const char* k_all_depth_methods =
        {"name": "deferred", "depth_test": "back"})";
 
 TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from_at_any_divisor) {
+  NEEDS(embree);
   using measure::SampleSet;
   for (const int divisor : {1, 2, 3, 4}) {
     const RoomRun run = run_of(
@@ -324,6 +332,7 @@ std::uint64_t missed_at(const std::vector<grid::Sample>& samples, const view::Fr
 }
 
 TEST(DepthMethods, lose_nothing_on_a_real_map_as_a_loop_over_all_lights_finds) {
+  NEEDS(embree);
   const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
   const std::string map = (library == nullptr ? "" : library) + std::string("/oacmp-maps/oacmpdm9.glb");
   if (!std::filesystem::exists(map)) GTEST_SKIP() << "the library of scenes is not here";
@@ -356,6 +365,7 @@ TEST(DepthMethods, lose_nothing_on_a_real_map_as_a_loop_over_all_lights_finds) {
 }
 
 TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
+  NEEDS(embree);
   RoomRun run = run_of(deep_room(), R"(, "samples": {"opaque": {}, "fog": {"froxels": [8, 6, 4]}})", R"("explicit")");
   CaseResult case_result = case_named(run, "explicit");
   ASSERT_EQ(case_result.samples.size(), 2u);
@@ -367,6 +377,7 @@ TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
 }
 
 TEST(DepthMethods, do_not_fail_for_surfaces_beyond_the_grid_which_no_list_can_have) {
+  NEEDS(embree);
   const RoomRun run =
       run_of(room(), R"(, "samples": {"opaque": {}})", k_all_depth_methods, R"("scheme": "exponential", "far": 5)");
   for (const char* name : {"flagged", "explicit"}) {
@@ -379,6 +390,7 @@ TEST(DepthMethods, do_not_fail_for_surfaces_beyond_the_grid_which_no_list_can_ha
 }
 
 TEST(DepthMethods, are_not_asked_for_lights_in_the_air_through_the_lookup) {
+  NEEDS(embree);
   const RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}}, "lookup": {"samples": 200})", k_all_depth_methods);
   for (const CaseResult& case_result : run.result.cases) {
     EXPECT_TRUE(case_result.failures.empty()) << case_result.name << ": " << case_result.failures[0].text;
@@ -409,6 +421,7 @@ TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {
 }
 
 TEST(DepthMethods, have_triangles_read_where_they_are_named_and_are_not_in_what_runs_by_default) {
+  NEEDS(embree);
   EXPECT_TRUE(run_of(room(), "", R"("explicit")").plan.scenes[0].geometry);
   EXPECT_FALSE(run_of(room(), "", R"("aabb")").plan.scenes[0].geometry);
   for (const std::string& name : assign::default_assigner_names())
@@ -416,6 +429,7 @@ TEST(DepthMethods, have_triangles_read_where_they_are_named_and_are_not_in_what_
 }
 
 TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_for_others) {
+  NEEDS(embree);
   const auto images_cast = [](const std::string& rest) {
     const scene::test::Folder folder;
     const config::Config config = config_of(folder, deep_room(), rest);
@@ -434,6 +448,7 @@ TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_fo
 
 // Else a second per frame and grid goes into pixels that no sample asks for.
 TEST(FrameSamples, of_surfaces_cast_rays_through_their_own_pixels_alone) {
+  NEEDS(embree);
   const scene::test::Folder folder;
   const config::Config config =
       config_of(folder, deep_room(), R"(, "assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 4}})");
@@ -467,6 +482,7 @@ TEST(FrameSamples, end_within_a_frame_when_the_run_is_stopped) {
 }
 
 TEST(DepthMethods, share_the_images_of_a_camera_over_grids_and_viewports_have_their_own) {
+  NEEDS(embree);
   const auto images_cast = [](const std::string& viewports) {
     const config::Config config =
         config::parse_config(R"({"scenes": [{"path": ")" + test::source_dir() +
@@ -486,6 +502,7 @@ TEST(DepthMethods, share_the_images_of_a_camera_over_grids_and_viewports_have_th
 }
 
 TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are) {
+  NEEDS(embree);
   const scene::test::Folder folder;
   const config::Config config = config_of(
       folder, deep_room(),
@@ -547,6 +564,7 @@ CoveredByTiles covered_in(const std::string& scene) {
 // Persson 2015: at discontinuities a mask of parts helps tiles, on slopes it does not; clusters are about as deep as
 // the larger part, and explicit bounds are always the tightest.
 TEST(FrameSamples, depths_that_lists_cover_are_in_the_order_of_perssons_table) {
+  NEEDS(embree);
   const CoveredDepths steps = covered_in("steps").discontinuities;
   EXPECT_GT(steps.share, 0.8);
   EXPECT_GT(steps.tiled, 4.0 * steps.masked);
@@ -565,6 +583,7 @@ TEST(FrameSamples, depths_that_lists_cover_are_in_the_order_of_perssons_table) {
 }
 
 TEST(FrameSamples, depths_that_lists_cover_are_told_with_visible_surfaces_alone) {
+  NEEDS(embree);
   EXPECT_TRUE(case_named(run_of(room(), k_all_sets), "exact-fast/packed").depth_ranges);
   EXPECT_FALSE(case_named(run_of(room(), ""), "exact-fast/packed").depth_ranges);
   EXPECT_FALSE(case_named(run_of(room(false), k_all_sets), "exact-fast/packed").depth_ranges) << "no surfaces";

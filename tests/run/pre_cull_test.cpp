@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "needs.h"
 #include "places.h"
 #include "run/cases/frame_lights.h"
 #include "run/cases/path_culls.h"
@@ -243,6 +244,7 @@ TEST(PreCulls, visible_sets_need_triangles) {
 }
 
 TEST(PreCulls, visible_sets_are_counted_and_fail_nothing) {
+  NEEDS(embree);
   const std::string scene = test::source_dir() + "/scenes/mix.glb";
   config::Config config = config::parse_config(
       R"({"scenes": [{"path": ")" + scene + R"(", "frames": 4}], "grids": [{"kind": "frustum"}], "viewport": [320, 180],

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "config/presets/preset_library.h"
+#include "needs.h"
 #include "places.h"
 #include "run/cases/plan.h"
 #include "run/findings/gate.h"
@@ -82,6 +83,7 @@ TEST(PresetRuns, conservative_presets_lose_nothing_on_a_street) {
 }
 
 TEST(PresetRuns, conservative_presets_lose_nothing_where_there_are_surfaces) {
+  NEEDS(embree);
   const config::Config config = preset_config(own_scene("mix.glb"), R"(, "presets": ["*"], "samples": {"opaque": {}})");
   const Plan plan = make_plan(config, "");
   const Result result = preset_results(config, plan);
@@ -90,6 +92,7 @@ TEST(PresetRuns, conservative_presets_lose_nothing_where_there_are_surfaces) {
 }
 
 TEST(PresetRuns, conservative_presets_lose_nothing_on_a_real_map) {
+  NEEDS(embree);
   const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
   const std::string map = (library == nullptr ? "" : library) + std::string("/oacmp-maps/oacmpdm9.glb");
   if (!std::filesystem::exists(map)) GTEST_SKIP() << "the library of scenes is not here";

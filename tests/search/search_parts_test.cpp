@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "needs.h"
 #include "scene/writers/write_gltf.h"
 #include "search/best_frames.h"
 #include "search/optimizer.h"
@@ -22,6 +23,7 @@ double distance_to(const std::vector<double>& point, double place) {
 }
 
 TEST(Optimizer, both_find_a_hill_within_what_they_may_spend) {
+  NEEDS(nlopt);
   const std::atomic<bool> stop{false};
   for (const int evaluations : {1, 7, 400}) {
     int calls = 0;
@@ -48,6 +50,7 @@ TEST(Optimizer, both_find_a_hill_within_what_they_may_spend) {
 }
 
 TEST(Optimizer, the_same_seed_asks_for_the_same_points_and_another_one_does_not) {
+  NEEDS(nlopt);
   const std::atomic<bool> stop{false};
   const auto points = [&](std::uint64_t seed) {
     std::vector<std::vector<double>> all;
@@ -65,6 +68,7 @@ TEST(Optimizer, the_same_seed_asks_for_the_same_points_and_another_one_does_not)
 }
 
 TEST(Optimizer, an_error_comes_through_and_a_stop_ends_it) {
+  NEEDS(nlopt);
   std::atomic<bool> stop{false};
   int calls = 0;
   const Objective broken = [&](const std::vector<double>&) -> double {
