@@ -23,18 +23,19 @@ using Json = nlohmann::json;
   throw Error("", flag.shown(), what);
 }
 
-// Splits "a,[b,c],{d,e}" at commas outside of brackets and quotes.
-std::vector<std::string> split(const std::string& text) {
+// Splits "a,[b,c],{d,e}" at commas outside of brackets and quotes; with parameters also "a(b,c),d" outside of theirs.
+std::vector<std::string> split(const std::string& text, bool with_parameters = false) {
   std::vector<std::string> parts(1);
   int depth = 0;
   bool quoted = false;
+  const std::string opening = with_parameters ? "[{(" : "[{", closing = with_parameters ? "]})" : "]}";
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
-    if (!quoted && (c == '[' || c == '{')) ++depth;
+    if (!quoted && opening.find(c) != std::string::npos) ++depth;
     if (depth > k_deepest_json)
       throw Error("", "--set", "a value nested deeper than " + std::to_string(k_deepest_json) + " levels");
-    if (!quoted && (c == ']' || c == '}')) --depth;
+    if (!quoted && closing.find(c) != std::string::npos) --depth;
     if (c == ',' && depth == 0 && !quoted)
       parts.emplace_back();
     else
@@ -207,18 +208,45 @@ void choose_viewports(FlaggedConfig& document, const FlagValue& flag) {
   document.mark("/viewports", flag);
 }
 
-// The configuration's own entries keep their parameters.
+// "gpu-tiled(tiles=occupied)", as in names of cases, is {"name": "gpu-tiled", "tiles": "occupied"}. Null without
+// parameters.
+Json assigner_with_parameters(const std::string& part, const FlagValue& flag) {
+  const std::size_t open = part.find('(');
+  if (open == std::string::npos || !part.ends_with(')')) return {};
+  Json entry{{"name", part.substr(0, open)}};
+  for (const std::string& parameter : split(part.substr(open + 1, part.size() - open - 2))) {
+    const std::size_t equals = parameter.find('=');
+    std::string key = parameter.substr(0, equals);
+    key.erase(0, key.find_first_not_of(' '));
+    if (equals == std::string::npos || key.empty() || entry.contains(key))
+      refuse(flag, "'" + parameter +
+                       "' is no parameter, or one that is there already; takes NAME(PARAMETER=VALUE,...), as in " +
+                       "gpu-tiled(tiles=occupied)");
+    entry[key] = value_of(parameter.substr(equals + 1));
+  }
+  return entry;
+}
+
+// Without parameters the configuration's own entries of that name, which keep theirs.
 void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
-  std::vector<std::string> names;
-  for (const std::string& part : split(flag.value))
-    for (const std::string& name : is_glob(part) ? matching_assigners(part, "", flag.shown()) : std::vector{part})
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   Json chosen = Json::array();
-  for (const std::string& name : names) {
-    const std::size_t before = chosen.size();
-    for (const Json& own : document["assigners"])
-      if (own["name"] == name) chosen.push_back(own);
-    if (chosen.size() == before) chosen.push_back({{"name", name}});
+  const auto add_once = [&](const Json& entry) {
+    if (std::find(chosen.begin(), chosen.end(), entry) == chosen.end()) chosen.push_back(entry);
+  };
+  const auto add_named = [&](const std::string& name) {
+    bool has_own = false;
+    for (const Json& own : document["assigners"]) {
+      if (own["name"] != name) continue;
+      add_once(own);
+      has_own = true;
+    }
+    if (!has_own) add_once({{"name", name}});
+  };
+  for (const std::string& part : split(flag.value, true)) {
+    if (const Json entry = assigner_with_parameters(part, flag); !entry.is_null())
+      add_once(entry);
+    else
+      std::ranges::for_each(is_glob(part) ? matching_assigners(part, "", flag.shown()) : std::vector{part}, add_named);
   }
   document["assigners"] = chosen;
   document.mark("/assigners", flag);
@@ -359,7 +387,9 @@ constexpr FlagRow k_rows[] = {
     {{"--shader",
       "FILE, repeatable: your own compute shaders as a method (docs/shaders.md), measured beside the others", true},
      add_shader},
-    {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
+    {{"--assigner",
+      "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'; parameters: "
+      "'exact-fast(threads=4)'"},
      choose_assigners},
     {{"--plugin", "[ID=]FILE, repeatable: a plug-in, whose methods can then be named (docs/plugins.md)", true},
      add_plugin},

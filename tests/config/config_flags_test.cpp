@@ -77,6 +77,16 @@ TEST(ConfigFlags, chosen_assigners_keep_the_parameters_of_the_configuration) {
   EXPECT_EQ(assigner_labels({{"--assigner", "exact*"}}), (Names{"exact", "exact-fast(threads=2)"}));
 }
 
+TEST(ConfigFlags, assigners_take_parameters_as_names_of_cases_have_them) {
+  EXPECT_EQ(assigner_labels({{"--assigner", "exact-fast(threads=3),aabb(spot=sphere, inflation=1.5),bounds"}}),
+            (Names{"exact-fast(threads=3)", "aabb(spot=sphere,inflation=1.5)", "bounds"}));
+  EXPECT_EQ(assigner_labels({{"--assigner", R"(aabb(spot=["both","sphere"]))"}}), (Names{"aabb", "aabb(spot=sphere)"}));
+  EXPECT_NE(refusal_of({{"--assigner", "exact-fast(thraeds=3)"}}).find("--assigner=exact-fast(thraeds=3)"),
+            std::string::npos);
+  for (const char* wrong : {"aabb()", "aabb(spot)", "aabb(=1)", "aabb(spot=both,spot=sphere)", "aabb(name=exact)"})
+    EXPECT_NE(refusal_of({{"--assigner", wrong}}).find("takes NAME(PARAMETER=VALUE,...)"), std::string::npos) << wrong;
+}
+
 TEST(ConfigFlags, simple_settings_are_those_of_the_configuration) {
   const Config config =
       flagged({{"--viewport", "640x360,1280x720"}, {"--rounds", "7"}, {"--threads", "3"}, {"--set", "seed=9"}});

@@ -123,7 +123,8 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
 
-  facts.driver = std::string(properties12.driverName) + " " + properties12.driverInfo;
+  facts.driver = properties12.driverName;
+  if (*properties12.driverInfo != '\0') facts.driver += std::string(" ") + properties12.driverInfo;
   facts.uuid = hex(properties11.deviceUUID);
   const VkPhysicalDeviceLimits& limits = properties.properties.limits;
   facts.max_buffer_bytes = limits.maxStorageBufferRange;
