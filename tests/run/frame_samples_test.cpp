@@ -1,7 +1,6 @@
 // Sets of samples from a scene's file to a case's result.
 
 #include "run/cases/frame_samples.h"
-#include "needs.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "effort.h"
+#include "needs.h"
 #include "places.h"
 #include "run/cases/case_names.h"
 #include "run/findings/gate.h"

@@ -29,12 +29,13 @@ vec2 slopes_along(vec3 n, Sides cell) {
 // convex in the depth, and quadratic as long as the centre lies beyond the same sides. The depth of the least square for
 // the sides at one depth is where to look at the sides next; after three turns they rarely change.
 //
-// Within the cell's depths the way is normal to the sides that the centre lies beyond, and so to the edge between two: its
-// depth follows from these sides' slopes, and not from the difference of two depths, whose roundoff the far corner would
-// multiply by (its way / the gap). At an end of the depths the way points out of the cell by no less.
+// Between the cell's two depths the way is normal to the side that the centre lies beyond, or to the edge of two: its z
+// follows from their slopes. A difference of depths is off by roundoffs of the depth: beside a small gap it would turn the
+// way by so much that the far corners lie beyond the centre. At the near depth the way points at least as far towards the
+// eye as that normal, at the far depth at least as far away.
 //
-// The result is scaled by a power of two to about 1: squares neither vanish, as lengths are 1e-15 m or more, nor overflow, but for those of a light
-// without an end, which is apart from nothing.
+// The result is scaled by a power of two to about 1: squares neither vanish, as lengths are 1e-15 m or more, nor overflow,
+// but for those of a light without an end, which is apart from nothing.
 vec3 way_out(vec3 center, Sides cell) {
   float depth = clamp(center.z, cell.depth.x, cell.depth.y);
   for (uint turn = 0; turn < 3; ++turn) {
@@ -81,9 +82,8 @@ float tilt(vec3 n, vec3 center, vec2 slopes, float far) {
   return far > reaches_far && moves < beside ? max(most, 0.0) : 0.0;
 }
 
-// Squares are compared: that of the gap is off
-// by 1 roundoff, those of the radius by 1 and of n by 3, their product by 1: 6 of themselves, so 3 of the radius after the
-// root. The ball is padded by 4 of its reach, which is more.
+// Squares are compared: that of the gap is off by 1 roundoff, those of the radius by 1 and of n by 3, their product by 1: 6
+// of themselves, so 3 of the radius after the root. The ball is padded by 4 of its reach, which is more.
 bool is_apart(vec4 ball, Sides cell) {
   vec3 center = vec3(ball.xy, -ball.z);
   vec3 n = way_out(center, cell);

@@ -151,6 +151,27 @@ std::string clock_warning(const Doubt& moving) {
          " was measured; fix its clock, or let it cool (docs/gpu.md)";
 }
 
+std::vector<std::string> device_doubts(const Result& result) {
+  std::vector<std::string> out;
+  if (has_software_device(result)) {
+    if (std::ranges::any_of(result.cases, [](const Case& one) { return one.device.has_value(); }))
+      out.push_back("times on " + shown(result.device->name) +
+                    " are a processor's and no GPU's: they rank nothing, and budgets of them say nothing of a GPU");
+    return out;
+  }
+  IntervalDoubts times(" on the device");
+  Doubt moving;
+  for (const Case& result_case : result.cases) {
+    if (!result_case.device) continue;
+    const result::DeviceTimes& device = *result_case.device;
+    if (device.run_ns.median > 0.0) times.add(result_case, device.run_ns, device.launches.value_or(1));
+    if (const double spread = clock_spread(result_case); spread > k_clock_spread) moving.add(result_case, spread);
+  }
+  times.add_warnings(out, "leave the device to this run");
+  if (moving.is_any()) out.push_back(clock_warning(moving));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std::string& without_times) {
@@ -172,27 +193,6 @@ std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std
   times.add_warnings(out, "stop other programs");
   if (two.is_any()) out.push_back(modes_warning(two, times));
   add_machine_warnings(out, others, stolen, hot, without_times);
-  return out;
-}
-
-std::vector<std::string> device_doubts(const Result& result) {
-  std::vector<std::string> out;
-  if (has_software_device(result)) {
-    if (std::ranges::any_of(result.cases, [](const Case& one) { return one.device.has_value(); }))
-      out.push_back("times on " + shown(result.device->name) +
-                    " are a processor's and no GPU's: they rank nothing, and budgets of them say nothing of a GPU");
-    return out;
-  }
-  IntervalDoubts times(" on the device");
-  Doubt moving;
-  for (const Case& result_case : result.cases) {
-    if (!result_case.device) continue;
-    const result::DeviceTimes& device = *result_case.device;
-    if (device.run_ns.median > 0.0) times.add(result_case, device.run_ns, device.launches.value_or(1));
-    if (const double spread = clock_spread(result_case); spread > k_clock_spread) moving.add(result_case, spread);
-  }
-  times.add_warnings(out, "leave the device to this run");
-  if (moving.is_any()) out.push_back(clock_warning(moving));
   return out;
 }
 

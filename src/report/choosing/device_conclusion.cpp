@@ -42,10 +42,10 @@ std::string fastest_text(const std::vector<WeighedCase>& timed) {
 std::string device_text(const SceneView& view, const std::optional<result::Device>& device) {
   if (view.on_device.empty() || !device) return "";
   std::vector<std::vector<WeighedCase>> grids;  // lists of one grid compare; those of visible surfaces alone do not
-  std::size_t timed = 0;
+  bool is_timed = false;
   for (const WeighedCase& weighed : view.on_device) {
     if (!weighed.result_case->device) continue;
-    ++timed;
+    is_timed = true;
     if (is_at_surfaces(weighed.method())) continue;
     const auto same = std::ranges::find_if(grids, [&](const std::vector<WeighedCase>& grid) {
       return grid.front().result_case->grid.name == weighed.result_case->grid.name;
@@ -53,7 +53,7 @@ std::string device_text(const SceneView& view, const std::optional<result::Devic
     (same == grids.end() ? grids.emplace_back() : *same).push_back(weighed);
   }
   const std::string on = " On " + shown(device->name) + ": ";
-  if (timed == 0) return on + "nothing was timed.";
+  if (!is_timed) return on + "nothing was timed.";
   if (device->type == "software")
     return on + "its times rank nothing: they are those of a driver that computes on the processor, and no GPU's.";
   std::string out;

@@ -28,8 +28,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 constexpr const char* k_separate_hints =
     "two runs of one program can differ several-fold; hints only, which fail nothing: to gate on times of the "
-    "processor use `run "
-    "--baseline-binary`, on a noisy machine `run --count`";
+    "processor use `run --baseline-binary`, on a noisy machine `run --count`";
 constexpr const char* k_separate_verdicts =
     "--gate-separate: two runs of one program can differ several-fold, and intervals know nothing of that; on a busy "
     "machine every second comparison of a program with itself failed";

@@ -208,9 +208,8 @@ std::string reading_table(const result::Result& result) {
          "lights, reads: walked lights and fetched elements of a sample.\n" +
          (has_frames ? "frame: assignment, upload and this reading, less what runs beside other work (reading.async).\n"
                      : "") +
-         (has_unsound ? "!: lacks lights that are needed (lost, dropped or culled), which makes lists short, or does "
-                        "not promise "
-                        "to have all of them:\nbehind all others, and in no sentence.\n"
+         (has_unsound ? "!: lacks lights that are needed (lost, dropped or culled), which makes lists short, fails, or "
+                        "does not promise to have all\nlights: in no sentence, and last where lines are sorted.\n"
                       : "") +
          unread;
 }
