@@ -196,13 +196,13 @@ Setting street(const Vec3i& cells, double far_m = 100) {
 }
 
 // Small lights close beside sides of tiles, whose cells are deep: each is beside a side of one of 16 columns, by 1.05
-// to 3 of its range.
+// to 1.5 of its range.
 Setting beside_sides(int slices) {
   assign::testing::Random random(43);
   WorldLights lights;
   for (int i = 0; i < 400; ++i) {
     const double slope = -1.0 + 0.125 * std::floor(random.between(1, 16)), depth = random.log_between(10, 90);
-    const double range_m = random.log_between(0.02, 0.2), gap_m = range_m * random.between(1.05, 3);
+    const double range_m = random.log_between(0.01, 0.1), gap_m = range_m * random.between(1.05, 1.5);
     const double y = random.between(-0.9, 0.9) * depth;
     lights.push_back(
         assign::testing::point_light({slope * depth + gap_m * std::hypot(1.0, slope), y, -depth}, range_m));
