@@ -124,7 +124,7 @@ def mangled_scene(data, draw):
 def config_of(scene, assigners):
     return {"scenes": [{"path": str(scene), "frames": 2}], "viewport": [320, 180], "assigners": assigners,
             "grids": [{"kind": "frustum", "tiles": {"count": [6, 4]}, "slices": {"scheme": "linear", "count": 4}}],
-            "storages": ["packed", "bitfield"], "timing": {"rounds": 3}, "details": {"frames": [0]},
+            "storages": ["packed", "bitfield"], "timing": {"sweep_mib": 4, "rounds": 3}, "details": {"frames": [0]},
             "stability": {"steps": 3}}
 
 

@@ -57,7 +57,7 @@ def level():
 CONFIGURATION = {
     "scenes": [{"path": "level.gltf", "frames": 2}], "viewport": [64, 64], "limits": {"baseline": "r.json"},
     "grids": [{"kind": "frustum", "tiles": {"pixels": [32, 32]}, "slices": {"scheme": "exponential", "count": 4, "far": 50}}],
-    "assigners": ["aabb-fast", "bounds"], "timing": {"rounds": 6, "frames": 1, "launches": 1, "min_time_ms": 0.01},
+    "assigners": ["aabb-fast", "bounds"], "timing": {"sweep_mib": 4, "rounds": 6, "frames": 1, "launches": 1, "min_time_ms": 0.01},
 }
 SCENE = ["level.gltf", "keys.bin"]
 

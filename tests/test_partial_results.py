@@ -25,7 +25,7 @@ CONFIGURATION = {
     "storages": ["packed", {"name": "fixed", "cap": 2}],
     "precision": ["float32", "half"],
     "limits": {"dropped_pairs": None},
-    "timing": {"rounds": 6, "frames": 2, "launches": 1, "min_time_ms": 0.1},
+    "timing": {"sweep_mib": 4, "rounds": 6, "frames": 2, "launches": 1, "min_time_ms": 0.1},
     "shading": {"samples": 64},
     "samples": {"fog": {"froxels": [4, 4, 4]}, "mirror": {"count": 64}},
     "lookup": {"samples": 64},

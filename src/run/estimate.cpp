@@ -55,7 +55,8 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
   const double min_ns = 1e6 * config.timing.min_time_ms, launches = config.timing.launches;
   const int rounds = rounds_per_launch(config.timing, config.timing.launches);
   const int warm_rounds = config.timing.cold ? std::min(rounds, limits.warm_rounds) : rounds;
-  const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, sweep_bytes()) : 0;
+  const std::uint64_t bytes = sweep_bytes(config.timing.sweep_mib);
+  const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, bytes) : 0;
   double all = 0.0;
   for (const Method& method : methods_of(group)) {
     TimedWork work(config, group, method, middle_frame);
@@ -78,8 +79,8 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
   return all;
 }
 
-double sweep_duration_ns() {
-  CacheSweep sweep(sweep_bytes());
+double sweep_duration_ns(const config::TimingRequest& timing) {
+  CacheSweep sweep(sweep_bytes(timing.sweep_mib));
   sweep();  // its first call allocates memory
   return duration_ns([&] { sweep(); });
 }
@@ -170,7 +171,7 @@ bool is_enough(double passed_s, const EstimateLimits& limits, const std::vector<
 }  // namespace
 
 std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const EstimateLimits& limits) {
-  const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns() : 0.0;
+  const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns(config.timing) : 0.0;
   // Samples groups across all scenes and grids: each step advances by about the golden section of the list.
   const std::size_t groups = plan.groups.size();
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;

@@ -24,7 +24,7 @@ struct Place {
            "grids": [{"kind": "frustum", "tiles": {"pixels": [64, 64]}, "slices": {"scheme": "linear", "count": 4}}],
            "assigners": ["aabb", "sphere-refinement"], "storages": ["packed", {"name": "fixed", "cap": 64}],
            "limits": {"dropped_pairs": null},
-           "timing": {"min_time_ms": 0.1, "frames": 2, "rounds": )" +
+           "timing": {"sweep_mib": 4, "min_time_ms": 0.1, "frames": 2, "rounds": )" +
                              std::to_string(rounds) + "}}")
         .string();
   }

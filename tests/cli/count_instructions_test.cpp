@@ -17,7 +17,7 @@ std::string tiny_config(const std::string& more = "") {
     "grids": [{"kind": "frustum", "tiles": {"pixels": [160, 160]}, "slices": {"count": 4, "far": 100}}],
     "assigners": ["brute-force", "aabb", "exact-fast"], "storages": ["packed", "fixed"],
     "shading": {"samples": 0}, "accuracy": {"check": false},
-    "timing": {"rounds": 2, "min_time_ms": 0.1, "frames": 2})" +
+    "timing": {"sweep_mib": 4, "rounds": 2, "min_time_ms": 0.1, "frames": 2})" +
          more + "}";
 }
 

@@ -29,7 +29,7 @@ std::string guarded_config(const std::vector<std::string>& faults, const std::st
                "slices": {"scheme": "exponential", "count": 4, "near": 0.5, "far": 200}}],
     "plugins": [")" +
          plugin_file("faulty") + R"("], "assigners": [)" + assigners +
-         R"(], "timing": {"rounds": 3, "min_time_ms": 0.5, "frames": 2)" + timing + "}}";
+         R"(], "timing": {"sweep_mib": 4, "rounds": 3, "min_time_ms": 0.5, "frames": 2)" + timing + "}}";
 }
 
 struct GuardedPlace {

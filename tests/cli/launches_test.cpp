@@ -35,7 +35,7 @@ struct LaunchPlace {
         .write(name, R"({"name": "c", "scenes": [{"path": ")" + path + R"(", "frames": 2}],
            "grids": [{"kind": "world", "cells": [16, 4, 16]}, {"kind": "world", "cells": [8, 4, 8]}],
            "assigners": ["world-grid", "world-grid-fast"],
-           "timing": {"rounds": 8, "launches": 4, "min_time_ms": 0.5, "frames": 2}})")
+           "timing": {"sweep_mib": 4, "rounds": 8, "launches": 4, "min_time_ms": 0.5, "frames": 2}})")
         .string();
   }
 };

@@ -21,7 +21,7 @@ inline std::string space(const std::string& more = "") {
                "slices": {"scheme": ["exponential", "exponential-first"], "count": [4, 8]}},
               {"kind": "world", "cells": [[16, 4, 16], [32, 8, 32]]}],
     "assigners": ["aabb-fast", "exact-fast", "world-grid-fast"], "storages": ["packed", "bitfield"],
-    "shading": {"samples": 256}, "timing": {"rounds": 2, "min_time_ms": 0.2, "frames": 2, "launches": 2})" +
+    "shading": {"samples": 256}, "timing": {"sweep_mib": 4, "rounds": 2, "min_time_ms": 0.2, "frames": 2, "launches": 2})" +
          more + "}";
 }
 

@@ -15,7 +15,7 @@ inline std::string small_config(const std::string& more = "") {
     "grids": [{"kind": "frustum", "tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential-first", "count": 8, "far": 200}},
               {"kind": "world", "cells": [16, 4, 16]}],
     "assigners": ["aabb", "sphere-refinement", "world-grid"],
-    "timing": {"rounds": 3, "min_time_ms": 1, "frames": 2})" +
+    "timing": {"sweep_mib": 4, "rounds": 3, "min_time_ms": 1, "frames": 2})" +
          more + "}";
 }
 

@@ -20,7 +20,7 @@ struct StreamPlace {
                            .write("c.json", R"({"scenes": [{"path": ")" + source_file("scenes/street.glb") +
                                                 R"(", "frames": 2}], "grids": [{"kind": "world", "cells": [16, 4, 16]}],
            "assigners": ["world-grid", "world-grid-fast"],
-           "timing": {"rounds": 6, "launches": 1, "min_time_ms": 0.1, "frames": 2}})")
+           "timing": {"sweep_mib": 4, "rounds": 6, "launches": 1, "min_time_ms": 0.1, "frames": 2}})")
                            .string();
   std::string result = (folder / "r.json").string(), history = (folder / "h.jsonl").string();
 

@@ -88,6 +88,12 @@ TEST(Compare, cold_times_are_not_compared_with_warm_ones) {
   const Json comparison = compared(json_of(base), json_of(next), 0.02);
   ASSERT_TRUE(comparison["left_out"].contains("times"));
   EXPECT_TRUE(holds(comparison["left_out"]["times"], "/cases/*/timing/caches"));
+  Json swept = json_of(next), warm = json_of(base);
+  for (Json* json : {&swept, &warm}) (*json)["config"]["timing"]["sweep_mib"] = 64;
+  const Json sizes = compared(json_of(next), swept, 0.02)["left_out"];
+  ASSERT_TRUE(sizes.contains("times"));
+  EXPECT_TRUE(holds(sizes["times"], "/config/timing/sweep_mib is null and 64")) << sizes;
+  EXPECT_FALSE(compared(json_of(base), warm, 0.02)["left_out"].contains("times")) << "nothing was swept";
   EXPECT_FALSE(compared(json_of(next), json_of(next), 0.02)["left_out"].contains("times"));
 }
 

@@ -302,6 +302,24 @@ TEST_F(History, times_with_cold_caches_do_not_go_on_a_series_of_warm_ones) {
   EXPECT_EQ(bytes_of_fast(all).values.size(), 14u);
 }
 
+TEST_F(History, times_after_sweeps_of_another_size_are_a_series_of_their_own) {
+  run::Result result = testing::result_by_hand();
+  for (run::CaseResult& one : result.cases)
+    if (one.timing) one.timing->is_cold = true;
+  result::Result record = record_of(result, {});
+  add_to_history(file_, record, "a");
+  record.config["timing"]["sweep_mib"] = 64;
+  for (const char* commit : {"b", "c"}) add_to_history(file_, record, commit);
+  std::map<std::string, std::size_t> lengths;
+  for (const Series& series : series_of(read_history(file_), {}))
+    if (series.figure->exported_as() == "frame_time")
+      lengths[series.machine] = std::max(lengths[series.machine], series.values.size());
+  ASSERT_EQ(lengths.size(), 2u);
+  EXPECT_EQ(lengths.begin()->second, 2u) << lengths.begin()->first;
+  EXPECT_NE(lengths.begin()->first.find(", cold (64 MiB swept) caches"), std::string::npos) << lengths.begin()->first;
+  EXPECT_EQ(lengths.rbegin()->second, 1u) << lengths.rbegin()->first;
+}
+
 TEST_F(History, counts_change_at_their_first_other_value) {
   run::Result result = testing::result_by_hand();
   add_to_history(file_, record_of(result, {}), "c1");

@@ -42,7 +42,7 @@ constexpr const char* k_street = R"({"name": "street", "scenes": [{"path": "../s
     "precision": ["float32", "half"], "stability": {"steps": 60},
     "samples": {"opaque": {"divisor": 4, "ground": "lowest"}, "fog": {"froxels": [16, 9, 8]}},
     "cost": {"weights": {"fog": 2}}, "shading": {"samples": 256},
-    "timing": {"rounds": 3, "launches": 1, "min_time_ms": 0.05, "frames": 4}})";
+    "timing": {"sweep_mib": 4, "rounds": 3, "launches": 1, "min_time_ms": 0.05, "frames": 4}})";
 
 // The lists of aabb; of the rounds the device takes less and less.
 class OnADevice final : public assign::ListAssigner {

@@ -22,7 +22,7 @@ struct DeviceRun {
       : config(config::parse_config(
             R"({"scenes": [{"rig": {"lights": 40, "range": 20}}],
             "grids": [{"tiles": {"count": [5, 4]}, "slices": {"count": 6, "near": 0.1, "far": 60}}],
-            "timing": {"rounds": 4, "min_time_ms": 0.01, "frames": 1}, "assigners": )" +
+            "timing": {"sweep_mib": 4, "rounds": 4, "min_time_ms": 0.01, "frames": 1}, "assigners": )" +
                 assigners + more + "}",
             "c.json")),
         plan(make_plan(config, "")) {}

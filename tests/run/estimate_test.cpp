@@ -10,7 +10,8 @@ namespace {
 // Rounds that have to last so long that nothing else matters; none of them is measured.
 Walk long_walk(const std::string& more) {
   Walk walk(std::string(k_shafts) + ", " + more, 3);
-  walk.config.timing = {.measure = true, .rounds = 20, .min_time_ms = 60000.0, .frames = 2, .launches = 5};
+  walk.config.timing = {
+      .measure = true, .rounds = 20, .min_time_ms = 60000.0, .frames = 2, .launches = 5, .sweep_mib = 4};
   walk.add_light({0, 0, -6}, 3);
   return walk;
 }

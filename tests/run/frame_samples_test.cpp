@@ -507,7 +507,7 @@ TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are
   const config::Config config = config_of(
       folder, deep_room(),
       std::string(
-          R"(, "timing": {"rounds": 2, "launches": 1, "min_time_ms": 0.1}, "stability": {"steps": 5}, "shading": {"samples": 20},
+          R"(, "timing": {"sweep_mib": 4, "rounds": 2, "launches": 1, "min_time_ms": 0.1}, "stability": {"steps": 5}, "shading": {"samples": 20},
           "details": {"frames": [0]}, "lookup": {"samples": 50}, "samples": {"opaque": {"divisor": 2}}, "assigners": ["aabb", )") +
           k_depth_methods + "]");
   const Plan plan = make_plan(config, "");

@@ -6,7 +6,6 @@
 
 #include "gpu/device/device.h"
 #include "run/runner.h"
-#include "run/timing/cache_sweep.h"
 
 namespace clusterbench::run {
 namespace {
@@ -146,7 +145,7 @@ constexpr int k_rig_lights = 60;
 Ran ran(const std::string& rest) {
   const config::Config config = config::parse_config(R"({"scenes": [{"rig": {"lights": 60, "spots": 0.4, "range": 20}}],
       "viewport": [160, 90], "grids": [{"tiles": {"count": [5, 4]}, "slices": {"count": 6, "near": 0.1, "far": 60}}],
-      "timing": {"rounds": 2, "min_time_ms": 0.01, "frames": 1}, )" +
+      "timing": {"sweep_mib": 4, "rounds": 2, "min_time_ms": 0.01, "frames": 1}, )" +
                                                          rest + "}",
                                                      "c.json");
   Ran out{make_plan(config, ""), {}};
@@ -179,8 +178,7 @@ TEST(LightStructures, a_method_registered_at_run_time_goes_through_a_whole_confi
   ASSERT_TRUE(own.timing);
   EXPECT_FALSE(own.timing->convert_ns) << "there are no lists to convert";
   EXPECT_TRUE(all.of("aabb", "bitfield").timing->convert_ns);
-  const auto cold = static_cast<std::size_t>(cold_rounds(2, 2, sweep_bytes()));  // large caches allow fewer
-  EXPECT_EQ(own.timing->assign_ns.samples.size(), cold);
+  EXPECT_EQ(own.timing->assign_ns.samples.size(), 2u);
 }
 
 TEST(LightStructures, without_cells_samples_alone_are_measured) {

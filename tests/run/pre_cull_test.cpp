@@ -188,7 +188,7 @@ TEST(PreCulls, stability_is_that_of_the_rigs_lights) {
 TEST(PreCulls, a_frame_takes_its_pre_cull_too) {
   for (const bool cold : {false, true}) {
     Walk walk = crowd(std::string(R"(, "assigners": ["aabb"], "pre_cull": ["none", ["frustum", {"distance_m": 15}]])"));
-    walk.config.timing = {.measure = true, .rounds = 3, .min_time_ms = 0.1, .frames = 2, .cold = cold};
+    walk.config.timing = {.measure = true, .rounds = 3, .min_time_ms = 0.1, .frames = 2, .cold = cold, .sweep_mib = 4};
     const Result result = walk.run();
     EXPECT_FALSE(of(result, "0", "-none").timing->pre_cull_ns);
     const TimingResult& timing = *of(result, "0", ")").timing;

@@ -99,7 +99,7 @@ TEST(Precision, is_seen_by_stability) {
 
 TEST(Precision, is_seen_by_what_is_timed_and_stored) {
   Walk walk = packed_crowd(k_all);
-  walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 0};
+  walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 0, .sweep_mib = 4};
   const Result result = walk.run();
   for (const CaseResult& one : result.cases) {
     const double pairs = one.timing->frame_ns.median * one.timing->frames_timed / one.timing->ns_per_pair;
@@ -113,7 +113,7 @@ TEST(Precision, is_seen_by_what_is_timed_and_stored) {
 
 TEST(Precision, is_named_by_what_others_are_compared_with) {
   Walk walk = packed_crowd(R"(, "precision": [{"packing": "half", "inflate": true}, "unorm16"])");
-  walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 1};
+  walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 1, .sweep_mib = 4};
   EXPECT_EQ(case_of(walk.run(), "-unorm16").timing->against_first->assigner, "aabb half+inflate");
 }
 

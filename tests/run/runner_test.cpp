@@ -8,7 +8,6 @@
 
 #include "core/libraries.h"
 #include "run/findings/gate.h"
-#include "run/timing/cache_sweep.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {
@@ -106,7 +105,7 @@ TEST(Runner, counts_do_not_depend_on_the_number_of_threads) {
 
 Walk timed(const std::string& more) {
   Walk walk(std::string(k_shafts) + ", " + more);
-  walk.config.timing = {.measure = true, .rounds = 4, .min_time_ms = 0.01, .frames = 2};
+  walk.config.timing = {.measure = true, .rounds = 4, .min_time_ms = 0.01, .frames = 2, .sweep_mib = 4};
   walk.add_light({0, 0, -6}, 3);
   return walk;
 }
@@ -117,15 +116,14 @@ TEST(Runner, an_assigner_is_timed_once_for_all_its_storages) {
   const TimingResult &packed = *result.cases[0].timing, &fixed = *result.cases[1].timing;
   EXPECT_EQ(packed.assign_ns.samples, fixed.assign_ns.samples);
   EXPECT_NE(packed.convert_ns->samples, fixed.convert_ns->samples);
-  const auto cold = static_cast<std::size_t>(cold_rounds(4, 3, sweep_bytes()));  // large caches allow fewer
-  EXPECT_EQ(packed.assign_ns.samples.size(), cold);
-  EXPECT_EQ(packed.convert_ns->samples.size(), cold);
+  EXPECT_EQ(packed.assign_ns.samples.size(), 4u);
+  EXPECT_EQ(packed.convert_ns->samples.size(), 4u);
   EXPECT_EQ(packed.build_ns.samples.size(), 4u);
   EXPECT_EQ(packed.frames_timed, 2);
   EXPECT_GT(packed.assign_ns.min, 0.0);
   EXPECT_GT(packed.write_floor_ns, 0.0);
   for (const TimingResult* timing : {&packed, &fixed})
-    for (std::size_t round = 0; round < cold; ++round)
+    for (std::size_t round = 0; round < 4; ++round)
       EXPECT_EQ(timing->frame_ns.samples[round], timing->assign_ns.samples[round] + timing->convert_ns->samples[round]);
 }
 
@@ -144,7 +142,7 @@ TEST(Runner, pairs_of_a_timing_are_those_of_its_frames) {
 
 TEST(Runner, of_one_timed_frame_the_worst_is_the_mean) {
   Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb"])", 1);
-  walk.config.timing = {.measure = true, .rounds = 3, .min_time_ms = 0.01, .frames = 4};
+  walk.config.timing = {.measure = true, .rounds = 3, .min_time_ms = 0.01, .frames = 4, .sweep_mib = 4};
   walk.add_light({0, 0, -6}, 3);
   const TimingResult timing = *walk.run().cases.at(0).timing;
   EXPECT_EQ(timing.worst.ns, timing.frame_ns.median);
@@ -154,7 +152,7 @@ TEST(Runner, a_grid_that_follows_the_lights_is_built_for_each_frame_even_if_one_
   for (const int frames : {1, 3}) {
     Walk walk(
         R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"scheme": "fit", "count": 8}}], "assigners": ["aabb"])");
-    walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = frames};
+    walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = frames, .sweep_mib = 4};
     for (int i = 0; i < 10; ++i) walk.add_light({std::sin(i * 2.0), std::cos(i * 3.0), -8.0 - i}, 1.5);
     EXPECT_EQ(walk.run().cases.at(0).timing->builds_per_frame, 1.0) << frames;
   }

@@ -17,14 +17,9 @@ namespace {
 // Five frames, of which the first and the last are in the means; a light that the camera walks towards.
 Walk timed_walk(const std::string& more) {
   Walk walk(std::string(k_shafts) + ", " + more, 5);
-  walk.config.timing = {.measure = true, .rounds = 4, .min_time_ms = 0.01, .frames = 2};
+  walk.config.timing = {.measure = true, .rounds = 4, .min_time_ms = 0.01, .frames = 2, .sweep_mib = 4};
   walk.add_light({0, 0, -6}, 3);
   return walk;
-}
-
-// Of four: sweeps have a limit of time, and caches of some machines are so large that it allows one round.
-std::size_t cold_rounds_of_walk() {
-  return static_cast<std::size_t>(cold_rounds(4, 3, sweep_bytes()));
 }
 
 GroupSamples measured(const Walk& walk, const LaunchRequest& request) {
@@ -39,16 +34,15 @@ TEST(TimingPass, caches_are_swept_before_each_frame_that_is_measured_cold) {
   std::size_t sweeps = 0;
   const GroupSamples samples = measured(walk, {0, 4, {3, 0}, [&] { ++sweeps; }});
   ASSERT_EQ(samples.methods.size(), 2u);
-  EXPECT_EQ(sweeps, cold_rounds_of_walk() * 2 * (3 + 2))
-      << "rounds; each storage by itself; the first method has a further frame";
+  EXPECT_EQ(sweeps, 4 * 2 * (3 + 2)) << "rounds; each storage by itself; the first method has a further frame";
   for (const MethodSamples& method : samples.methods) {
-    EXPECT_EQ(method.cold_each.size(), cold_rounds_of_walk());
+    EXPECT_EQ(method.cold_each.size(), 4u);
     EXPECT_EQ(method.warm_ns.size(), 4u);
     EXPECT_GE(method.warm_passes, 1);
     EXPECT_GE(method.stores[1].warm_passes, 1);
     EXPECT_TRUE(method.warm_each.empty());
     ASSERT_EQ(method.stores.size(), 2u);
-    EXPECT_EQ(method.stores[1].cold_each.size(), cold_rounds_of_walk());
+    EXPECT_EQ(method.stores[1].cold_each.size(), 4u);
     EXPECT_EQ(method.stores[1].cold_each[0].size(), method.frames.size());
   }
 }
@@ -72,9 +66,9 @@ TEST(TimingPass, warm_rounds_can_be_fewer_where_caches_are_cold) {
   const LaunchRequest request{0, 4, {}, [] {}, 1};
   const GroupSamples cold = measured(walk, request);
   EXPECT_EQ(cold.methods[0].warm_ns.size(), 1u);
-  EXPECT_EQ(cold.methods[0].cold_each.size(), cold_rounds_of_walk());
+  EXPECT_EQ(cold.methods[0].cold_each.size(), 4u);
   const TimingResult timing = timing_results(walk.config, walk.plan.groups[0], std::span(&cold, 1))[0];
-  EXPECT_EQ(timing.frame_ns.samples.size(), cold_rounds_of_walk());
+  EXPECT_EQ(timing.frame_ns.samples.size(), 4u);
   EXPECT_EQ(timing.warm->frame_ns.samples.size(), 1u);
   walk.config.timing.cold = false;
   EXPECT_EQ(measured(walk, request).methods[0].warm_ns.size(), 4u) << "there is nothing else";
@@ -202,7 +196,8 @@ TEST(TimingPass, cold_rounds_sweep_for_no_longer_than_some_time_and_are_never_no
 TEST(TimingPass, a_sweep_is_larger_than_the_caches_of_the_machine) {
   std::uint64_t largest = 0;
   for (const auto& [name, bytes] : machine_facts().caches) largest = std::max(largest, bytes);
-  EXPECT_GT(sweep_bytes(), largest);
+  EXPECT_GT(sweep_bytes({}), largest);
+  EXPECT_EQ(sweep_bytes(64), 64u << 20) << "a user's";
 }
 
 TEST(MachineLoad, is_read_from_the_first_line_of_proc_stat) {

@@ -103,7 +103,7 @@ TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last
 
 TEST(SearchView, tells_how_far_the_whole_search_is_also_while_the_last_ones_are_timed) {
   Walk walk = small_walk(6);
-  walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1};
+  walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1, .sweep_mib = 4};
   const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     return Verdict{entries(cases), 0.0, {}, false};
   };

@@ -37,7 +37,8 @@ TEST(SearchCosts, a_look_leaves_the_plan_as_it_was_and_finds_times_only_where_th
   walk.add_light({0, 0, -6}, 3);
   const std::vector<run::GroupPlan> groups = walk.plan.groups;
   for (const bool is_timed : {false, true}) {
-    walk.config.timing = {.measure = is_timed, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1};
+    walk.config.timing = {
+        .measure = is_timed, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1, .sweep_mib = 4};
     const std::vector<View> views = views_of(walk.config, walk.plan);
     const SearchCosts costs = estimated_costs(walk.config, walk.plan, views[0]);
     ASSERT_EQ(walk.plan.groups.size(), groups.size());

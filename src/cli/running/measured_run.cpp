@@ -21,6 +21,7 @@
 #include "run/estimate.h"
 #include "run/records/records.h"
 #include "run/runner.h"
+#include "run/timing/cache_sweep.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -35,6 +36,9 @@ void print_duration(const config::Config& config, const run::Plan& plan, std::sp
   if (timing_s > 0.2 * all_s) {
     shorter.push_back("--no-timing (" + duration_text(all_s - timing_s) + ")");
     if (config.timing.rounds > 5) shorter.emplace_back("--rounds 5");
+    constexpr std::uint64_t k_long_sweep = 128 << 20;
+    if (config.timing.cold && run::sweep_bytes(config.timing.sweep_mib) > k_long_sweep)
+      shorter.emplace_back("--set timing.sweep_mib=64");
   }
   shorter.insert(shorter.end(), {"--filter TEXT", "--set 'scenes.*.frames=10'"});
   if (config.accuracy.check && !config.accuracy.most_pairs) shorter.emplace_back("--set accuracy.most_pairs=1000000");

@@ -108,6 +108,8 @@ Obstacles obstacles(const Result& base, const Result& next) {
   const std::optional<std::string> base_caches = caches_of_times(base), next_caches = caches_of_times(next);
   if (base_caches && next_caches && *base_caches != *next_caches)
     out.to_times.push_back("/cases/*/timing/caches is \"" + *base_caches + "\" and \"" + *next_caches + "\"");
+  else if (base_caches == "cold")
+    std::ranges::copy(differing({"/config/timing/sweep_mib"}), std::back_inserter(out.to_times));
   out.to_times.insert(out.to_times.begin(), out.to_instructions.begin(), out.to_instructions.end());
   return out;
 }

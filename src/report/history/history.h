@@ -33,7 +33,7 @@ struct HistoryEntry {
   std::string commit;   // as passed by the user
   std::string machine;  // processor and instruction set
   std::string counter;  // of instructions: "callgrind", "perf"; "" if none, or in an older version
-  std::string caches;   // of times: "cold"; "" if warm, or in an older version
+  std::string caches;   // of times: "cold", "cold (64 MiB swept)"; "" if warm, or in an older version
   struct Case {
     std::string settings, name;                           // `settings` is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the exported name

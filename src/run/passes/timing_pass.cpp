@@ -415,7 +415,7 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
   for (const auto& track : timed.tracks) tracks.push_back(track.get());
   if (unfitted)
     for (const auto& track : unfitted->tracks) tracks.push_back(track.get());
-  const std::uint64_t bytes = config.timing.cold ? sweep_bytes() : 0;
+  const std::uint64_t bytes = config.timing.cold ? sweep_bytes(config.timing.sweep_mib) : 0;
   std::optional<CacheSweep> own_sweep;
   std::function<void()> sweep = request.sweep;
   if (config.timing.cold && !sweep) {

@@ -5,12 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace clusterbench::run {
 
-// A quarter more than the sum of all cache levels of this machine; 64 MiB if they are unknown, at most 1 GiB.
-std::uint64_t sweep_bytes();
+// `wanted_mib` (timing.sweep_mib), or a quarter more than the sum of all cache levels of this machine; 64 MiB if they
+// are unknown, at most 1 GiB.
+std::uint64_t sweep_bytes(std::optional<int> wanted_mib);
 
 class CacheSweep {
  public:
