@@ -312,7 +312,7 @@ TEST_F(History, times_after_sweeps_of_another_size_are_a_series_of_their_own) {
   for (const char* commit : {"b", "c"}) add_to_history(file_, record, commit);
   std::map<std::string, std::size_t> lengths;
   for (const Series& series : series_of(read_history(file_), {}))
-    if (series.figure->exported_as() == "frame_time")
+    if (series.figure->exported_as() == "assign_time")
       lengths[series.machine] = std::max(lengths[series.machine], series.values.size());
   ASSERT_EQ(lengths.size(), 2u);
   EXPECT_EQ(lengths.begin()->second, 2u) << lengths.begin()->first;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "report/cases/json_values.h"
 #include "report/cases/scene_lights.h"
 #include "report/documents/machine_name.h"
 #include "run/cases/case_names.h"

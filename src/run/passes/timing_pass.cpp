@@ -416,12 +416,7 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
   if (unfitted)
     for (const auto& track : unfitted->tracks) tracks.push_back(track.get());
   const std::uint64_t bytes = config.timing.cold ? sweep_bytes(config.timing.sweep_mib) : 0;
-  std::optional<CacheSweep> own_sweep;
-  std::function<void()> sweep = request.sweep;
-  if (config.timing.cold && !sweep) {
-    own_sweep.emplace(bytes);
-    sweep = [&] { (*own_sweep)(); };
-  }
+  const std::function<void()> sweep = request.sweep ? request.sweep : [bytes] { sweep_caches(bytes); };
   const int cold = config.timing.cold ? cold_rounds(request.rounds, of_means.size() + 1, bytes) : 0;
   const LoadWatch watch;
   GroupSamples out;

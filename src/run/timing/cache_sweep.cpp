@@ -1,6 +1,7 @@
 #include "run/timing/cache_sweep.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/kept_stores.h"
 #include "os/machine.h"
@@ -15,11 +16,14 @@ std::uint64_t sweep_bytes(std::optional<int> wanted_mib) {
   return all == 0 ? k_unknown : std::min(all + all / 4, k_most);
 }
 
-void CacheSweep::operator()() {
+void sweep_caches(std::uint64_t bytes) {
   constexpr std::size_t k_line = 64;  // one plain store to each line: memset() may use stores that bypass the caches
-  ++value_;
-  for (std::size_t at = 0; at < buffer_.size(); at += k_line) buffer_[at] = value_;
-  keep_stores(buffer_.data());
+  static std::vector<unsigned char> buffer;
+  static unsigned char value = 0;
+  if (buffer.size() < bytes) buffer = std::vector<unsigned char>(bytes);
+  ++value;
+  for (std::size_t at = 0; at < bytes; at += k_line) buffer[at] = value;
+  keep_stores(buffer.data());
 }
 
 int cold_rounds(int rounds, std::size_t frames, std::uint64_t bytes) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace clusterbench::run {
 
@@ -14,17 +13,9 @@ namespace clusterbench::run {
 // are unknown, at most 1 GiB.
 std::uint64_t sweep_bytes(std::optional<int> wanted_mib);
 
-class CacheSweep {
- public:
-  explicit CacheSweep(std::uint64_t bytes) : buffer_(bytes) {}
-
-  // Writes every line of the buffer. Caches of other cores stay as they are, except for a shared level.
-  void operator()();
-
- private:
-  std::vector<unsigned char> buffer_;
-  unsigned char value_ = 0;
-};
+// Writes every line of so many bytes. Caches of other cores stay as they are, except for a shared level. The memory is
+// kept for the process's next sweep, since getting it takes longer than writing it. For one thread at a time.
+void sweep_caches(std::uint64_t bytes);
 
 // Number of cold passes, at least one, out of `rounds` passes over `frames` frames: as many as keep the total sweep
 // time below a fixed limit. It is the same on all machines with the same caches, so all launches and methods have the
