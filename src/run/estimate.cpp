@@ -79,11 +79,10 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
   return all;
 }
 
-// Of a part, since getting all memory of a large sweep takes longer than an estimate may.
 double sweep_duration_ns(const config::TimingRequest& timing) {
-  const std::uint64_t bytes = sweep_bytes(timing.sweep_mib), part = std::min<std::uint64_t>(bytes, 64 << 20);
-  sweep_caches(part);  // the first call gets the memory
-  return duration_ns([&] { sweep_caches(part); }) * static_cast<double>(bytes) / static_cast<double>(part);
+  const std::uint64_t bytes = sweep_bytes(timing.sweep_mib);
+  sweep_caches(bytes);  // the first call gets the memory
+  return duration_ns([&] { sweep_caches(bytes); });
 }
 
 // The time of device_pass() for all methods, launches and rounds, from one frame of it.

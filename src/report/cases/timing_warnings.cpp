@@ -81,7 +81,7 @@ std::string few_cold_rounds(const Case& result_case) {
   if (warm == nullptr) return "";
   const std::size_t cold = result_case.timing->frame_ns.samples.size(), rounds = warm->frame_ns.samples.size();
   return cold < rounds ? " (" + std::to_string(cold) + " of " + number_of(rounds, "round") +
-                             " had cold caches, since each reads more memory than all caches hold)"
+                             " had cold caches, since sweeping them takes long)"
                        : "";
 }
 

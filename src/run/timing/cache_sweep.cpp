@@ -10,7 +10,7 @@ namespace clusterbench::run {
 
 std::uint64_t sweep_bytes(std::optional<int> wanted_mib) {
   if (wanted_mib) return static_cast<std::uint64_t>(*wanted_mib) << 20;
-  constexpr std::uint64_t k_unknown = 64 << 20, k_most = 1 << 30;
+  constexpr std::uint64_t k_unknown = 64 << 20, k_most = 256 << 20;
   std::uint64_t all = 0;
   for (const auto& [name, bytes] : os::caches_now()) all += bytes;
   return all == 0 ? k_unknown : std::min(all + all / 4, k_most);
