@@ -723,6 +723,7 @@ export type Result = {
     }; // Wall times
     device?: {
       device: string; // Name and driver of the device; times of one device alone compare
+      software?: boolean; // true: the device computes on the processor: its times are no GPU's, and nothing ranks by them. Absent in older results, where device.type says it
       frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
       caches?: "cold" | "warm"; // Of all times here but those of warm. cold: memory of the device is filled before each frame's upload, as all else of an engine's frame does; warm: the same frame again and again. Absent in older results, where caches were as the method before left them
       launches?: number; // How often the device was opened anew, each time for an equal share of every array of samples, one after the other, in one process. From two on all 95 % intervals are between them, else between rounds [openings, over the case]

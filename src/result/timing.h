@@ -94,6 +94,10 @@ struct ShaderStatistic {
 struct DeviceTimes {
   RECORD(DeviceTimes);
   FIELD(std::string, device, "Name and driver of the device; times of one device alone compare");
+  FIELD(std::optional<bool>, software,
+        About("true: the device computes on the processor: its times are no GPU's, and nothing ranks by them. Absent "
+              "in older results, where device.type says it")
+            .late());
   FIELD(std::uint64_t, frames_timed, "Evenly spaced over the path; all times are means over them", "frames",
         "the path");
   FIELD(std::optional<std::string>, caches,

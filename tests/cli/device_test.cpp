@@ -160,7 +160,7 @@ TEST_F(OnDevice, stress_takes_methods_of_a_named_one_alone_and_says_so) {
   const Outcome gone = tool("stress --random 3 --device radeon");
   EXPECT_EQ(gone.code, 2);
   EXPECT_TRUE(
-      gone.err.starts_with("clusterbench: --device: 'radeon' is no device of this machine; there are 0 (llvmpipe"))
+      gone.err.starts_with("clusterbench: --device: 'radeon' is no device of this machine; devices here: 0 (llvmpipe"))
       << gone.err;
 }
 

@@ -148,7 +148,8 @@ TEST(SizeCommand, refuses_what_it_cannot_size_and_says_why) {
 // A camera that passes a lamp within a tenth of a second: 30 frames of the path miss it.
 TEST(SizeCommand, samples_paths_as_finely_as_they_have_keys_and_says_so) {
   const Folder folder;
-  const std::string street = test::source_file("scenes/street.glb"), flags = " --grid frustum --assigner exact-fast ";
+  const std::string street = test::source_file("scenes/street.glb"),
+                    flags = " --grid frustum --tiles 128 --slices 4 --assigner exact-fast ";
   const Outcome done = tool("size --format json" + flags + street),
                 few = tool("size -q --format json --set 'scenes.*.frames=30'" + flags + street);
   ASSERT_EQ(done.code, 0) << done.err;

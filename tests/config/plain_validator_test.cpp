@@ -10,6 +10,7 @@
 #include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "effort.h"
 #include "needs.h"
 #include "places.h"
 
@@ -110,8 +111,9 @@ TEST(PlainValidator, decides_as_valijson_does) {
   SplitMix64 random(3);
   const std::filesystem::path source = test::source_dir();
   for (const char* name : {"details", "fit", "pre-cull", "quick"})
-    compare_with_library(config_schema(), json_file(source / "configs" / (std::string(name) + ".json")), random, 50);
-  compare_with_library(result_schema(), json_file(source / "results/amd-epyc/peers-w5.json"), random, 15);
+    compare_with_library(config_schema(), json_file(source / "configs" / (std::string(name) + ".json")), random,
+                         test::tries(50));
+  compare_with_library(result_schema(), json_file(source / "results/amd-epyc/peers-w5.json"), random, test::tries(15));
 }
 
 }  // namespace

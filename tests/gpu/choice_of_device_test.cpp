@@ -77,7 +77,7 @@ TEST(ChoiceOfDevice, takes_a_whole_name_where_it_is_a_part_of_another_one) {
 
 TEST(ChoiceOfDevice, refuses_what_names_several_and_lists_all) {
   EXPECT_EQ(refusal(a_workstation(), "rtx"),
-            "'rtx' is the name of several devices; there are 0 (llvmpipe (LLVM 15.0.6, 256 bits)), 1 (Intel(R) UHD "
+            "'rtx' is the name of several devices; devices here: 0 (llvmpipe (LLVM 15.0.6, 256 bits)), 1 (Intel(R) UHD "
             "Graphics 630), 2 (NVIDIA GeForce RTX 4090), 3 (NVIDIA GeForce RTX 4090), 4 (NVIDIA GeForce GTX 460); an "
             "index, a UUID or a part of one name is allowed");
   EXPECT_NE(refusal(a_workstation(), "10de2684").find("is the name of several devices"), std::string::npos);
@@ -85,7 +85,7 @@ TEST(ChoiceOfDevice, refuses_what_names_several_and_lists_all) {
 
 TEST(ChoiceOfDevice, refuses_what_names_none_and_lists_all) {
   for (const char* wanted : {"radeon", "5", "99999999999999999999", "-1", "ffffffffffffffffffffffffffffffff"}) {
-    const std::string begin = "'" + std::string(wanted) + "' is no device of this machine; there are 0 (llvmpipe";
+    const std::string begin = "'" + std::string(wanted) + "' is no device of this machine; devices here: 0 (llvmpipe";
     EXPECT_TRUE(refusal(a_workstation(), wanted).starts_with(begin)) << refusal(a_workstation(), wanted);
   }
 }
@@ -149,7 +149,7 @@ TEST(ChoiceOfDevice, after_a_failure_is_no_other_one_and_says_that_it_is_gone) {
     const std::string told = refusal_of(now);
     EXPECT_TRUE(
         told.starts_with("device: NVIDIA GeForce RTX 4090 (UUID 10de26840000000001000000000000bb), which this "
-                         "run began with, is gone; there are 0 (llvmpipe"))
+                         "run began with, is gone; devices here: 0 (llvmpipe"))
         << told;
     EXPECT_TRUE(told.ends_with("), and results of two devices do not go together")) << told;
   }

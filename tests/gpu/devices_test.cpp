@@ -59,7 +59,7 @@ TEST_F(Devices, are_opened_by_their_uuid_and_a_wrong_name_says_which_there_are) 
   use_device(uuid);
   EXPECT_EQ(device().facts().name, name);
   use_device("no such device");
-  EXPECT_NE(device_obstacle().find("'no such device' is no device of this machine; there are 0 (" + name),
+  EXPECT_NE(device_obstacle().find("'no such device' is no device of this machine; devices here: 0 (" + name),
             std::string::npos)
       << device_obstacle();
   EXPECT_THROW(device(), Error);
@@ -81,7 +81,7 @@ TEST_F(Devices, open_after_a_failure_as_the_one_that_was_open_before_and_as_no_o
   } catch (const Error& error) {
     EXPECT_TRUE(error.message().starts_with(first.name +
                                             " (UUID 00000000000000000000000000000000), which this run began "
-                                            "with, is gone; there are 0 ("))
+                                            "with, is gone; devices here: 0 ("))
         << error.message();
   }
 }

@@ -10,6 +10,7 @@
 #include "report/cases/timing_warnings.h"
 #include "report/choosing/conclusion.h"
 #include "report/comparison_by_hand.h"
+#include "report/exports/exports.h"
 #include "report/results/merge.h"
 #include "report/tables/table.h"
 #include "result/figures/case_figure.h"
@@ -40,6 +41,7 @@ run::Result with_device(double run_ns, gpu::DeviceType type = gpu::DeviceType::d
   };
   on_device.device.emplace();
   on_device.device->device = "Card";
+  on_device.device->is_software = type == gpu::DeviceType::software;
   on_device.device->frames_timed = 2;
   on_device.device->launches = 5;
   on_device.device->dispatches = 4.0;
@@ -150,7 +152,7 @@ TEST(DeviceCases, of_software_are_in_the_order_of_the_configuration) {
 
 TEST(DeviceCases, of_older_versions_are_read) {
   Json json = json_of(with_device(2000.0));
-  for (const char* late : {"caches", "launches", "repeats", "warm"}) json["cases"][2]["device"].erase(late);
+  for (const char* late : {"software", "caches", "launches", "repeats", "warm"}) json["cases"][2]["device"].erase(late);
   const result::Result read = test::result_of(json);
   EXPECT_FALSE(read.cases[2].device->caches);
   EXPECT_EQ(read.cases[2].device->run_ns.median, 2000.0);
@@ -210,6 +212,33 @@ TEST(DeviceCases, keep_their_device_in_a_merged_result_unless_there_are_several)
       second{"b.json", test::result_of(json_of(on_device))}, third{"c.json", test::result_of(json_of(on_other))};
   EXPECT_EQ(merged({first, second}).device->name, "Card");
   EXPECT_FALSE(merged({first, second, third}).device);
+}
+
+TEST(DeviceCases, name_their_device_in_tables_for_other_programs) {
+  const auto exported_as = [](const char* format, const run::Result& result) {
+    return exported(test::result_of(json_of(result)), export_format(format), false);
+  };
+  const run::Result on_card = with_device(2000.0), on_software = with_device(2000.0, gpu::DeviceType::software);
+  EXPECT_NE(exported_as("csv", on_card).find(",storage,device,"), std::string::npos);
+  EXPECT_NE(exported_as("csv", on_card).find(",packed,Card,"), std::string::npos) << exported_as("csv", on_card);
+  EXPECT_NE(exported_as("csv", on_software).find(",packed,Card (software),"), std::string::npos);
+  EXPECT_NE(exported_as("markdown", on_software).find(" Card (software) |"), std::string::npos);
+  EXPECT_EQ(exported_as("csv", result_by_hand()).find(",device"), std::string::npos);
+}
+
+TEST(DeviceCases, of_software_are_told_from_those_of_a_card_in_a_merged_result) {
+  run::Result on_card = with_device(2000.0), on_software = with_device(2000.0, gpu::DeviceType::software);
+  on_card.cases.erase(on_card.cases.begin(), on_card.cases.begin() + 2);
+  on_software.cases = {on_software.cases[2]};
+  on_software.cases[0].id = "soft";
+  on_software.cases[0].device->device = on_software.device->name = "Processor";
+  on_software.planned_ids = {"soft"};
+  const result::Result all =
+      merged({{"a.json", test::result_of(json_of(on_card))}, {"b.json", test::result_of(json_of(on_software))}});
+  const std::string table = render_table(all, false);
+  EXPECT_NE(table.find("on Card: frustum 64px"), std::string::npos) << table;
+  EXPECT_NE(table.find("on Processor (software, not sorted by time): frustum 64px"), std::string::npos) << table;
+  EXPECT_NE(table.find("warning: times on Processor are a processor's and no GPU's"), std::string::npos) << table;
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::size_t named_device(const DeviceList& list, const std::string& wanted) {
   if (named.size() == 1) return named.front();
   const std::string fault = named.empty() ? "is no device of this machine" : "is the name of several devices";
   throw Error("", "device",
-              "'" + wanted + "' " + fault + "; there are " + names_of(list) +
+              "'" + wanted + "' " + fault + "; devices here: " + names_of(list) +
                   "; an index, a UUID or a part of one name is allowed");
 }
 
@@ -101,7 +101,7 @@ std::size_t same_device(const DeviceList& list, const DeviceFacts& before) {
     if (!now.obstacle.empty()) throw Error("", "device", now.name + " " + now.obstacle);
     return i;
   }
-  const std::string rest = list.devices.empty() ? list.obstacle : "there are " + names_of(list);
+  const std::string rest = list.devices.empty() ? list.obstacle : "devices here: " + names_of(list);
   throw Error("", "device",
               before.name + " (UUID " + before.uuid + "), which this run began with, is gone; " + rest +
                   ", and results of two devices do not go together");

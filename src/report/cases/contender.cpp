@@ -64,8 +64,10 @@ bool runs_on_device(const Case& result_case) {
   return result_case.assigner.on_device.value_or(false);
 }
 
-bool has_software_device(const result::Result& result) {
-  return result.device && result.device->type == "software";
+bool is_on_software_device(const result::Result& result, const Case& result_case) {
+  if (!runs_on_device(result_case)) return false;
+  const bool runs_software = result.device && result.device->type == "software";
+  return result_case.device ? result_case.device->software.value_or(runs_software) : runs_software;
 }
 
 bool is_at_surfaces(const std::string& assigner) {

@@ -41,8 +41,8 @@ bool is_at_surfaces(const std::string& assigner);
 // The limitation of such a method, for users: "lights visible opaque surfaces alone: ..."; "" for others.
 std::string at_surfaces_text(const std::string& assigner);
 
-// True if times of the result's device are a processor's (lavapipe, SwiftShader): they rank nothing.
-bool has_software_device(const result::Result& result);
+// True if the case's times on a device are a processor's (lavapipe, SwiftShader): they rank nothing.
+bool is_on_software_device(const result::Result& result, const result::Case& result_case);
 
 // The frame times of a case's rounds; empty without timing.
 std::vector<double> frame_rounds(const result::Case& result_case);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "core/text.h"
 #include "measure/statistics/time_statistics.h"
@@ -153,20 +154,22 @@ std::string clock_warning(const Doubt& moving) {
 
 std::vector<std::string> device_doubts(const Result& result) {
   std::vector<std::string> out;
-  if (has_software_device(result)) {
-    if (std::ranges::any_of(result.cases, [](const Case& one) { return one.device.has_value(); }))
-      out.push_back("times on " + shown(result.device->name) +
-                    " are a processor's and no GPU's: they rank nothing, and budgets of them say nothing of a GPU");
-    return out;
-  }
   IntervalDoubts times(" on the device");
   Doubt moving;
+  std::set<std::string> software;
   for (const Case& result_case : result.cases) {
     if (!result_case.device) continue;
     const result::DeviceTimes& device = *result_case.device;
+    if (is_on_software_device(result, result_case)) {
+      software.insert(shown(result.device ? result.device->name : device.device));
+      continue;
+    }
     if (device.run_ns.median > 0.0) times.add(result_case, device.run_ns, device.launches.value_or(1));
     if (const double spread = clock_spread(result_case); spread > k_clock_spread) moving.add(result_case, spread);
   }
+  if (!software.empty())
+    out.push_back("times on " + joined(std::vector<std::string>(software.begin(), software.end())) +
+                  " are a processor's and no GPU's: they rank nothing, and budgets of them say nothing of a GPU");
   times.add_warnings(out, "leave the device to this run");
   if (moving.is_any()) out.push_back(clock_warning(moving));
   return out;

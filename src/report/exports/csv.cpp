@@ -49,6 +49,7 @@ std::string csv_column(const Figure& figure) {
 std::string heading(const ExportResult& result) {
   std::string line = "id,name,scene,camera,viewport,grid,assigner,precision,storage";
   if (result.has_machines) line += ",machine";
+  if (result.has_devices) line += ",device";
   for (const Figure* figure : export_figures()) {
     if (!has_column(*figure, result)) continue;
     const std::string name = csv_column(*figure);

@@ -1,10 +1,12 @@
 #include "report/exports/exports.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
+#include "report/cases/contender.h"
 #include "report/documents/machine_name.h"
 #include "report/exports/export_formats.h"
 
@@ -41,6 +43,12 @@ std::vector<std::pair<std::string, std::string>> parts_of(const Case& result_cas
           {"storage", result_case.storage}};
 }
 
+// "llvmpipe, llvmpipe Mesa 22.3.6 (software)"; "" without times on one.
+std::string device_of(const result::Result& result, const Case& result_case) {
+  if (!result_case.device) return "";
+  return result_case.device->device + (is_on_software_device(result, result_case) ? " (software)" : "");
+}
+
 ExportCase read_case(const Case& result_case, std::size_t index, bool all) {
   require(result_case.id, index, "id");
   require(result_case.name, index, "name");
@@ -69,9 +77,11 @@ ExportResult read(const result::Result& result, bool all) {
   out.failed = result.failed.value_or(std::vector<std::string>());
   for (const result::BrokenCase& broken : result.broken.value_or(std::vector<result::BrokenCase>()))
     out.failed.push_back(broken.name + ": " + broken.reason);
+  out.has_devices = std::ranges::any_of(result.cases, [](const Case& one) { return one.device.has_value(); });
   for (const Case& result_case : result.cases) {
     out.cases.push_back(read_case(result_case, out.cases.size(), all));
     if (out.has_machines) out.cases.back().parts.emplace_back("machine", result_case.machine.value_or(""));
+    if (out.has_devices) out.cases.back().parts.emplace_back("device", device_of(result, result_case));
   }
   return out;
 }

@@ -18,7 +18,7 @@ struct ExportCase {
   std::vector<double> samples_ns;  // frame times of the rounds, in order; empty without timing
   int frames_timed = 0;
   // The parts of the name: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order;
-  // then "machine", where times are of several.
+  // then "machine", where times are of several, and "device", where one is timed.
   std::vector<std::pair<std::string, std::string>> parts{};
 };
 
@@ -27,6 +27,7 @@ struct ExportResult {
   std::string machine, os;
   int cores = 0;
   bool has_machines = false;        // times are of several, and each case names its own
+  bool has_devices = false;         // some times are a device's, and each case names its own
   bool all = false;                 // all figures of the table, not only the headline
   std::vector<std::string> failed;  // reasons of a failed run, a sentence each
   std::vector<ExportCase> cases;

@@ -348,9 +348,16 @@ struct TableBlock {
   std::string heading;
   std::vector<const Case*> cases;
 };
+// "on llvmpipe (software, not sorted by time): "
+std::string device_heading(const result::Result& result, const Case& result_case) {
+  const std::string name = result.device        ? result.device->name
+                           : result_case.device ? result_case.device->device
+                                                : "a device";
+  return "on " + shown(name) +
+         (is_on_software_device(result, result_case) ? " (software, not sorted by time): " : ": ");
+}
+
 std::vector<TableBlock> table_blocks(const result::Result& result, const result::Scene& scene) {
-  const std::string on_device = "on " + (result.device ? shown(result.device->name) : std::string("a device")) +
-                                (has_software_device(result) ? " (software, not sorted by time): " : ": ");
   std::vector<TableBlock> lists, device_lists, searched;
   std::map<std::string, std::size_t> index_of;  // of a heading among its blocks
   for (const Case& result_case : result.cases) {
@@ -359,7 +366,7 @@ std::vector<TableBlock> table_blocks(const result::Result& result, const result:
     std::string heading = block_of(result_case);
     if (is_searched) heading = "structures that samples search" + heading.substr(shown(result_case.grid.name).size());
     const bool is_on_device = runs_on_device(result_case);
-    if (is_on_device) heading.insert(0, on_device);
+    if (is_on_device) heading.insert(0, device_heading(result, result_case));
     std::vector<TableBlock>& blocks = is_on_device ? device_lists : is_searched ? searched : lists;
     const auto [at, is_new] = index_of.try_emplace(heading, blocks.size());
     if (is_new) blocks.push_back({heading, {}});
@@ -419,8 +426,7 @@ std::string render_table(const result::Result& result, bool colour) {
       std::vector<Line> lines;
       for (const Case* result_case : block.cases)
         lines.push_back(line_of(*result_case, on_front.contains(result_case->id), of_block, by, sets));
-      if (!(runs_on_device(sampled) && has_software_device(result)))
-        std::ranges::stable_sort(lines, {}, &Line::sort_key);
+      if (!is_on_software_device(result, sampled)) std::ranges::stable_sort(lines, {}, &Line::sort_key);
       has_alike |= mark_alike(result, heads, by, lines);
       std::vector<Cells> rows{heads};
       for (const Line& line : lines) {

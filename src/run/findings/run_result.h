@@ -104,6 +104,7 @@ struct DeviceSpanTimes {
 
 struct DeviceTimes {
   std::string device;  // name and driver
+  bool is_software = false;
   int frames_timed = 0, launches = 1;
   double dispatches = 0.0;              // per frame
   std::optional<DeviceSpanTimes> cold;  // if configured

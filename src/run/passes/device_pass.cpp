@@ -140,6 +140,7 @@ class DeviceStatistics {
     if (std::ranges::all_of(method.warm.run_ns, [](double ns) { return ns == 0.0; })) return {};
     DeviceTimes out;
     out.device = name_of_device();
+    out.is_software = has_device() && gpu::device().facts().is_software();
     out.frames_timed = static_cast<int>(method.frames);
     out.launches = launches_;
     out.dispatches = method.dispatches;

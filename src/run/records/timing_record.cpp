@@ -78,6 +78,7 @@ result::Timing timing_record(const TimingResult& t) {
 result::DeviceTimes device_record(const DeviceTimes& t) {
   result::DeviceTimes out;
   out.device = t.device;
+  out.software = t.is_software;
   out.frames_timed = static_cast<std::uint64_t>(t.frames_timed);
   out.caches = t.is_cold() ? "cold" : "warm";
   out.launches = static_cast<std::uint64_t>(t.launches);
