@@ -20,7 +20,7 @@ struct Triple {
 float random_float(SplitMix64& random, int least_exponent, int most_exponent) {
   const double mantissa = 1.0 + static_cast<double>(random.below(1u << 23)) * 0x1p-23;
   const int exponent =
-      least_exponent + static_cast<int>(random.below(static_cast<std::uint64_t>(most_exponent - least_exponent + 1)));
+      least_exponent + static_cast<int>(random.below(static_cast<std::uint64_t>(most_exponent - least_exponent) + 1));
   return static_cast<float>((random.below(2) == 0 ? 1.0 : -1.0) * std::ldexp(mantissa, exponent));
 }
 
