@@ -40,8 +40,9 @@ double counting_ns(const config::Config& config, const SceneData& data, const Gr
   return (wall_ns() - start + cast_ns) * frames / threads;
 }
 
-// For an even number of values, the lower one of the two in the middle.
+// For an even number of values, the lower one of the two in the middle; 0 without values.
 double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
@@ -160,12 +161,10 @@ std::size_t sampled_at_once(const config::Config& config, const Plan& plan) {
   return is_alone ? 1 : static_cast<std::size_t>(config.threads);
 }
 
-// Whether sampling has taken long enough, also in comparison with the counting that it is about.
-bool is_enough(double passed_s, const EstimateLimits& limits, const std::vector<double>& counting, std::size_t groups) {
-  if (counting.empty()) return false;
-  constexpr double k_share = 0.1;
-  const bool is_long = passed_s > k_share * 1e-9 * median(counting) * static_cast<double>(groups);
-  return is_long || passed_s >= limits.most_s;
+// Whether sampling has taken long enough, also in comparison with the counting and the timing that it is about.
+bool is_enough(double passed_ns, const EstimateLimits& limits, double counting_ns, double timing_ns) {
+  constexpr double k_share = 0.1, k_share_of_timing = 0.03;
+  return passed_ns > k_share * counting_ns + k_share_of_timing * timing_ns || passed_ns >= 1e9 * limits.most_s;
 }
 
 }  // namespace
@@ -177,14 +176,20 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing, on_device, reading;
+  std::vector<double> counting, timing, on_device, reading;  // timing: of a method
+  std::vector<double> timed_methods;
+  for (const GroupPlan& group : plan.groups)
+    timed_methods.push_back(static_cast<double>(methods_of(timed_cases(config, group)).size()));
+  const double all_methods = std::accumulate(timed_methods.begin(), timed_methods.end(), 0.0);
   const std::size_t at_once = sampled_at_once(config, plan);
   ThreadPool pool(static_cast<int>(at_once));
   config::Config on_one_thread = config;
   on_one_thread.threads = 1;
   const int threads = std::min(config.threads, processors());
   for (const double start = wall_ns();
-       sampled < groups && !is_enough(1e-9 * (wall_ns() - start), limits, counting, groups);) {
+       sampled < groups &&
+       (sampled == 0 || !is_enough(wall_ns() - start, limits, median(counting) * static_cast<double>(groups),
+                                   median(timing) * all_methods));) {
     const std::size_t first = sampled;
     sampled = std::min(groups, first + at_once);
     each_in_order(pool, sampled - first, [&](std::size_t i) {
@@ -194,14 +199,16 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
     for (std::size_t i = first; i < sampled; ++i) {
       const GroupCost& cost = costs[i * stride % groups];
       counting.push_back(cost.counting_ns);
-      timing.push_back(cost.timing_ns);
+      if (const double methods = timed_methods[i * stride % groups]; methods > 0.0)
+        timing.push_back(cost.timing_ns / methods);
       on_device.push_back(cost.device_ns);
       reading.push_back(cost.reading_ns);
     }
   }
   // A few groups take far longer than others: a sampled group like that stands for itself only.
   for (std::size_t i = sampled; i < groups; ++i)
-    costs[i * stride % groups] = {median(counting), median(timing), median(on_device), median(reading)};
+    costs[i * stride % groups] = {median(counting), median(timing) * timed_methods[i * stride % groups],
+                                  median(on_device), median(reading)};
   return costs;
 }
 

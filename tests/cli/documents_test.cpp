@@ -1,8 +1,10 @@
-// Documents that are deeper than any that this tool writes end every command that reads one in one line.
+// Documents that are deeper than any that this tool writes end every command that reads one in one line. Results that
+// are committed, of whatever version, are valid.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/tool.h"
 
@@ -52,6 +54,15 @@ TEST(DeepDocuments, of_interrupted_runs_are_not_resumed) {
     EXPECT_EQ(done.code, 2) << done.err;
     EXPECT_NE(done.err.find("s.json.partial: line 1"), std::string::npos) << done.err;
   }
+}
+
+TEST(CommittedResults, are_valid) {
+  std::string files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_file("results")))
+    if (entry.path().extension() == ".json") files += " " + entry.path().string();
+  ASSERT_FALSE(files.empty());
+  const Outcome done = tool("validate" + files);
+  EXPECT_EQ(done.code, 0) << done.err;
 }
 
 }  // namespace

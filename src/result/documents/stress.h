@@ -61,7 +61,10 @@ struct LossSearch {
   FIELD(std::string, method, "Its label");
   FIELD(std::uint64_t, tries, "Made");
   FIELD(std::uint64_t, misses, "Tries in which a light was lost");
-  FIELD(std::uint64_t, undecided, "Tries in which a light was not listed and nothing could decide whether it touches");
+  FIELD(std::optional<std::uint64_t>, undecided,
+        About("Tries in which a light was not listed and nothing could decide whether it touches. Absent in older "
+              "results")
+            .late());
   FIELD(double, least_margin_roundoffs,
         About("Of the padding: by how many unit roundoffs (2^-24 of its reach) the nearest light could have been moved "
               "away and still be listed; 0 where one is lost")
