@@ -44,7 +44,7 @@ struct TimingRequest {
   KEY(int, frames, 8);             // evenly spaced timed frames; 0 = all
   KEY(int, launches, 5);           // processes that share the rounds, if the caller can start some
   KEY(bool, cold, true);           // empties the caches before each frame; these times are the ones reported first
-  KEY(std::optional<int>, sweep_mib, {});  // written to empty them; none: more than the caches hold
+  KEY(std::optional<int>, sweep_mib, {});  // written to empty them; none: by the caches (run/timing/cache_sweep.h)
   END_RECORD;
 };
 
