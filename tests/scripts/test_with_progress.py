@@ -26,7 +26,7 @@ class WithProgress(unittest.TestCase):
         self.assertEqual(len(result.stderr.splitlines()), 2)
 
     def test_a_command_without_steps_still_says_that_it_goes_on(self):
-        self.assertEqual(run("sleep 1.5").stderr, "Building, 1 s so far\n")
+        self.assertRegex(run("sleep 1.5").stderr, r"^Building, \d s so far\n")
 
     def test_what_succeeds_within_the_interval_says_nothing(self):
         self.assertEqual(run("echo much; echo more >&2", "30").stderr, "")
@@ -51,7 +51,7 @@ class WithProgress(unittest.TestCase):
         except OSError:  # all was read
             pass
         self.assertNotIn(b"\n", shown)
-        self.assertIn(b"\rBuilding, 1 s so far: ", shown)
+        self.assertRegex(shown, rb"\rBuilding, \d+ s so far: ")
         self.assertTrue(shown.endswith(b"\r\033[K"))
 
 
