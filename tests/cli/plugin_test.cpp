@@ -436,7 +436,7 @@ TEST(PluginStress, checks_methods_of_plugins) {
            " --methods 'hostile.loses$' --random 40 -q -o /dev/null --failures " + folder.path().string());
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
     if (entry.path().extension() == ".json") {  // runs as it stands, and fails
-      const Outcome again = tool("run " + entry.path().string() + " --no-timing -q -o /dev/null");
+      const Outcome again = tool("run " + entry.path().string() + " -q -o /dev/null");
       EXPECT_EQ(again.code, 1) << again.err;
       EXPECT_TRUE(mentions(again.err, "hostile.loses")) << again.err;
     }

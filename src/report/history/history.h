@@ -33,7 +33,7 @@ struct HistoryEntry {
   std::string commit;   // as passed by the user
   std::string machine;  // processor and instruction set
   std::string counter;  // of instructions: "callgrind", "perf"; "" if none, or in an older version
-  std::string caches;   // of times: "cold", "cold (64 MiB swept)"; "" if warm, or in an older version
+  std::string caches;   // of times: "cold"; "" if warm, or in an older version
   struct Case {
     std::string settings, name;                           // `settings` is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the exported name
@@ -43,6 +43,7 @@ struct HistoryEntry {
   std::vector<Case> cases;
   std::vector<HistoryLights> scenes = {};  // empty in lines of older versions
   std::string device = {};                 // with its driver, of the device's times; "" without any
+  std::string swept = {};  // before cold times of the processor: "64 MiB"; "" if the configuration leaves it open
 };
 
 // "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points; figures from there on are of other

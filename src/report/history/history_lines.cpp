@@ -28,14 +28,11 @@ std::string counter_of(const result::Result& result) {
   return "";
 }
 
-// "cold", with the size of the sweep if the configuration sets it; "" without cold times.
-std::string caches_of(const result::Result& result) {
-  const bool is_cold = std::ranges::any_of(result.cases, [](const result::Case& result_case) {
+bool has_cold_times(const result::Result& result) {
+  return std::ranges::any_of(result.cases, [](const result::Case& result_case) {
     return (result_case.timing && result_case.timing->caches == "cold") ||
            (result_case.device && result_case.device->caches == "cold");
   });
-  const Json* sweep_mib = value_at(result.config, "/timing/sweep_mib");
-  return !is_cold ? "" : sweep_mib == nullptr ? "cold" : "cold (" + sweep_mib->dump() + " MiB swept)";
 }
 
 // Of the device's times, with its driver. Several only in a merged result.
@@ -53,7 +50,10 @@ Json line_of(const result::Result& result, const std::string& commit) {
             {"cpu", machine_name(result.machine)},
             {"simd_target", result.tool.simd_target}};
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
-  if (const std::string caches = caches_of(result); !caches.empty()) line["caches"] = caches;
+  if (has_cold_times(result)) {
+    line["caches"] = "cold";
+    if (const Json* mib = value_at(result.config, "/timing/sweep_mib")) line["swept"] = mib->dump() + " MiB";
+  }
   if (const std::string device = devices_of(result); !device.empty()) line["device"] = device;
   line["scenes"] = Json::array();
   for (const result::Scene& scene : result.scenes) {
@@ -162,6 +162,7 @@ HistoryEntry parsed(std::string_view line) {
     for (const Json& stored : list_in(json, "", "scenes"))
       entry.scenes.push_back(parsed_scene(stored, "/scenes/" + std::to_string(number++)));
   entry.device = text_or_none(json, "", "device");
+  entry.swept = text_or_none(json, "", "swept");
   return entry;
 }
 

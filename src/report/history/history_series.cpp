@@ -26,7 +26,8 @@ std::string origin(const HistoryEntry& entry, const Figure& figure) {
   switch (figure.basis) {
     case Basis::time:
       return (figure.is_of_device ? entry.device : entry.machine) +
-             (entry.caches.empty() ? "" : ", " + entry.caches + " caches");
+             (entry.caches.empty() ? "" : ", " + entry.caches + " caches") +
+             (figure.is_of_device || entry.swept.empty() ? "" : ", " + entry.swept + " swept");
     case Basis::instructions:
       return entry.machine + (entry.counter.empty() ? "" : ", " + entry.counter);
     case Basis::count:
