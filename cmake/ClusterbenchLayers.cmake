@@ -58,7 +58,7 @@ endfunction()
 # clang and scripts/check_style compile without.
 set(CLUSTERBENCH_PRECOMPILED_LAYERS "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(CLUSTERBENCH_PRECOMPILED_LAYERS core geom view depth assign measure)
+  set(CLUSTERBENCH_PRECOMPILED_LAYERS core geom view depth assign)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     list(REMOVE_ITEM CLUSTERBENCH_PRECOMPILED_LAYERS assign) # it is built for another processor (CMakeLists.txt)
   endif()
@@ -87,10 +87,14 @@ set(CLUSTERBENCH_UNTIMED_LAYERS os result layout gpu config dump run pictures st
 set(CLUSTERBENCH_COLD_LAYERS os result layout gpu config dump run pictures stress acceptance search report cli)
 set(CLUSTERBENCH_COLD_OPTIONS "")
 if(CLUSTERBENCH_SANITIZE)
+  list(APPEND CLUSTERBENCH_COLD_LAYERS scene)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)
+  # Long to optimise, and needed where no quicker proof decides.
+  set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/src/geom/spot/shell_cell_proof.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/src/geom/spot/plane_cell_proof.cpp PROPERTIES COMPILE_OPTIONS -O0)
 endif()
 
-set(CLUSTERBENCH_UNITED_LAYERS scene ${CLUSTERBENCH_COLD_LAYERS})
+set(CLUSTERBENCH_UNITED_LAYERS scene measure)
 
 macro(clusterbench_layer NAME)
   cmake_parse_arguments(LAYER "" "" "ONLY;EXCEPT;LINK" ${ARGN})
@@ -110,7 +114,7 @@ macro(clusterbench_layer NAME)
     target_compile_options(cb_${NAME} PRIVATE $<$<CONFIG:Release>:-Og>)
   endif()
   # Under sanitizers nothing is timed. The files of geom have the same names for the same shapes in other arithmetic.
-  if(${NAME} IN_LIST CLUSTERBENCH_COLD_LAYERS)
+  if(${NAME} IN_LIST CLUSTERBENCH_UNTIMED_LAYERS)
     clusterbench_unite(cb_${NAME} 16) # small files, whose templates of JSON and records are the same
   elseif(${NAME} IN_LIST CLUSTERBENCH_UNITED_LAYERS OR (CLUSTERBENCH_SANITIZE AND NOT ${NAME} STREQUAL geom))
     clusterbench_unite(cb_${NAME})

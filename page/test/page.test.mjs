@@ -81,7 +81,28 @@ const inTable = async (page, selector = "#ranking") => {
 };
 const isAscending = (values) => values.every((value, at) => at === 0 || values[at - 1] <= value);
 
+// Of table rows and marks of charts that differ in nothing but texts and numbers, two stay: axe takes a minute for hundreds.
+const dropRepeated = (page) =>
+  page.evaluate(() => {
+    const texts = new Set(["id", "href", "for", "title", "d", "x", "y", "x1", "x2", "y1", "y2", "cx", "cy", "width", "height"]);
+    const shape = (element) => {
+      const attributes = [...element.attributes].map(({ name, value }) =>
+        texts.has(name) || /^(aria-label|data-|transform)/.test(name) ? name : `${name}=${value}`,
+      );
+      return `<${[element.tagName, ...attributes].join(" ")}>${[...element.children].map(shape).join("")}/`;
+    };
+    const seen = new Map();
+    for (const one of document.querySelectorAll("tbody > tr, svg g > *")) {
+      if (!seen.has(one.parentElement)) seen.set(one.parentElement, new Map());
+      const counts = seen.get(one.parentElement);
+      const key = shape(one);
+      counts.set(key, (counts.get(key) ?? 0) + 1);
+      if (counts.get(key) > 2) one.remove();
+    }
+  });
+
 async function violations(page) {
+  await dropRepeated(page);
   await page.evaluate(axe);
   const found = await page.evaluate(() => globalThis.axe.run(document));
   return found.violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join("; ")}`);

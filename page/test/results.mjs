@@ -31,7 +31,7 @@ const sweep = {
   stability: { steps: 8 },
   lookup: { samples: 32 },
   shading: { samples: 64 },
-  timing: { rounds: 3, min_time_ms: 0, frames: 1 },
+  timing: { rounds: 3, min_time_ms: 0, frames: 1, sweep_mib: 4 },
 };
 
 // A grid that ends too near, and a storage with too little room.
@@ -45,7 +45,7 @@ export const lossy = {
   assigners: ["bounds-fast", "exact-fast"],
   storages: ["packed", { name: "fixed", cap: 2 }],
   limits: { dropped_pairs: null },
-  timing: { rounds: 3, min_time_ms: 0, frames: 2 },
+  timing: { rounds: 3, min_time_ms: 0, frames: 2, sweep_mib: 4 },
 };
 
 // Two presets that lose nothing, one that has too little room, one that needs triangles.

@@ -121,6 +121,11 @@ void value_from_json(const Type& type, const Json& json, void* value, const std:
 
 }  // namespace
 
+void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, bool is_optional,
+               const void* (*get)(const void* record), void* (*make)(void* record)) {
+  fields.push_back({name, about, &type, is_optional, get, make});
+}
+
 Json number_json(double value, bool is_fraction) {
   constexpr double k_exact_integers = 9007199254740992.0;
   if (!std::isfinite(value)) return nullptr;

@@ -158,6 +158,10 @@ T initial() {
 #define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
 #define END_RECORD static constexpr int k_last_line = __LINE__
 
+// Not in the class: hundreds of fields of its instances would each build it anew.
+void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, bool is_optional,
+               const void* (*get)(const void* record), void* (*make)(void* record));
+
 // Collects the fields of a record, its own and those of its Rest.
 template <class Record>
 class FieldCollector {
@@ -172,18 +176,20 @@ class FieldCollector {
  private:
   template <auto Member, class Holder, class T>
   void add_typed(const char* name, const About& about, T Holder::*) {
-    fields_.push_back({name, about, &type_of<T>(), false,
-                       [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
-                       [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); }});
+    add_field(
+        fields_, name, about, type_of<T>(), false,
+        [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
+        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); });
   }
   template <auto Member, class Holder, class T>
   void add_typed(const char* name, const About& about, std::optional<T> Holder::*) {
-    fields_.push_back({name, about, &type_of<T>(), true,
-                       [](const void* record) -> const void* {
-                         const auto& value = static_cast<const Record*>(record)->*Member;
-                         return value ? &*value : nullptr;
-                       },
-                       [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member).emplace(); }});
+    add_field(
+        fields_, name, about, type_of<T>(), true,
+        [](const void* record) -> const void* {
+          const auto& value = static_cast<const Record*>(record)->*Member;
+          return value ? &*value : nullptr;
+        },
+        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member).emplace(); });
   }
 
   std::vector<Field>& fields_;

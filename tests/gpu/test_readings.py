@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """What samples pay for their lights (key `reading`), through the program on the driver of the environment.
 
-  tests/gpu/test_readings.py CLUSTERBENCH SCENES
+  tests/gpu/test_readings.py CLUSTERBENCH SCENES [NAME...]
 
+NAME: Readings (what each driver reads), ReadingRuns (what the program does with it) or WithoutDevice; without any, all.
 No test asserts a time. Counts of readings are held against those that the first pass over the frames takes on the
 processor. Without a device all tests but those of its absence are skipped (exit code 77).
 """
@@ -105,13 +106,6 @@ class Readings(unittest.TestCase):
         self.assertIn("A software device: these times are a processor's and no GPU's", self.done.stderr)
         self.assertNotIn("Exact lists in the same storage would save", self.done.stderr)
 
-    def test_without_async_only_methods_on_the_device_have_whole_frames(self):
-        document = config(assigners=["aabb-fast", "gpu-cells"], storages=["packed"])
-        del document["reading"]["async"]
-        result, done = run(document)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(["frame_ns" in case["reading"] for case in result["cases"]], [False, True])
-
     def test_behind_a_pre_cull_and_with_packed_lights_the_device_walks_what_the_structure_has(self):
         document = config(assigners=["aabb-fast", "z-binning"], storages=["packed", "bitfield"],
                           pre_cull=["none", "frustum"], precision=["float32", "half"])
@@ -134,6 +128,40 @@ class Readings(unittest.TestCase):
         for case in result["cases"]:
             self.assertEqual([one["differing"] for one in case["reading"]["sets"]], [0, 0], case["name"])
             self.assertEqual(len(case["reading"]["sets"][0]["walks"]), 2, case["name"])
+
+    def test_prices_of_a_software_device_are_refused_and_those_of_a_card_taken(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/readings.json"
+            with open(path, "w") as file:
+                json.dump(self.result, file)
+            _, done = run(config(), "--cost-from", path, "--no-timing")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("computes on the processor", done.stderr)
+            doctored = json.loads(json.dumps(self.result))
+            for case in doctored["cases"]:
+                case["reading"]["software"] = False
+                for one in case["reading"]["sets"]:  # as if a card had these prices
+                    for walk in one["walks"]:
+                        walk["read_ns"]["median"] = one["nothing_ns"]["median"] + one["samples"] * one["divergence"] * (
+                            0.03 * one["lights"] + 0.004 * one["reads"] + one["read_bytes"] / 1500)
+            with open(path, "w") as file:
+                json.dump(doctored, file)
+            result, done = run(config(), "--cost-from", path, "--no-timing")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("is a small attenuation", done.stderr)
+            cost = result["config"]["cost"]
+            self.assertLess(abs(cost["ns_per_light"] / 0.03 - 1), 1e-3)
+            self.assertLess(abs(cost["ns_per_read"] / 0.004 - 1), 1e-2)
+            self.assertLess(abs(cost["read_gb_per_s"] / 1500 - 1), 1e-2)
+
+
+class ReadingRuns(unittest.TestCase):
+    def test_without_async_only_methods_on_the_device_have_whole_frames(self):
+        document = config(assigners=["aabb-fast", "gpu-cells"], storages=["packed"])
+        del document["reading"]["async"]
+        result, done = run(document)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(["frame_ns" in case["reading"] for case in result["cases"]], [False, True])
 
     def test_a_walk_that_a_structure_does_not_allow_is_no_other_ones_figure(self):
         document = config(assigners=["aabb-fast", "bvh"], storages=["packed"])
@@ -200,31 +228,6 @@ class Readings(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertFalse(any("reading" in case for case in result["cases"]))
 
-    def test_prices_of_a_software_device_are_refused_and_those_of_a_card_taken(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = f"{folder}/readings.json"
-            with open(path, "w") as file:
-                json.dump(self.result, file)
-            _, done = run(config(), "--cost-from", path, "--no-timing")
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn("computes on the processor", done.stderr)
-            doctored = json.loads(json.dumps(self.result))
-            for case in doctored["cases"]:
-                case["reading"]["software"] = False
-                for one in case["reading"]["sets"]:  # as if a card had these prices
-                    for walk in one["walks"]:
-                        walk["read_ns"]["median"] = one["nothing_ns"]["median"] + one["samples"] * one["divergence"] * (
-                            0.03 * one["lights"] + 0.004 * one["reads"] + one["read_bytes"] / 1500)
-            with open(path, "w") as file:
-                json.dump(doctored, file)
-            result, done = run(config(), "--cost-from", path, "--no-timing")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("is a small attenuation", done.stderr)
-            cost = result["config"]["cost"]
-            self.assertLess(abs(cost["ns_per_light"] / 0.03 - 1), 1e-3)
-            self.assertLess(abs(cost["ns_per_read"] / 0.004 - 1), 1e-2)
-            self.assertLess(abs(cost["read_gb_per_s"] / 1500 - 1), 1e-2)
-
 
 class WithoutDevice(unittest.TestCase):
     def test_cases_are_measured_without_readings_and_the_reason_is_told(self):
@@ -241,4 +244,4 @@ if __name__ == "__main__":
     if not has_device():
         print("skipped: there is no device")
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
