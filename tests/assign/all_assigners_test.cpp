@@ -1,6 +1,9 @@
 // What holds for every registered assigner, and what it takes to add one.
 
+#include <algorithm>
+
 #include "assign/contract.h"
+#include "assign/contract/assigner_run.h"
 #include "assign/dense_check.h"
 #include "core/text.h"
 #include "effort.h"
@@ -29,6 +32,49 @@ TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
         const std::vector<std::string> faults = contract_faults(*row, Params(row->params), setting);
         EXPECT_TRUE(faults.empty()) << row->name << " on " << setting.name << ": " << joined(faults, "; ");
       }
+}
+
+// A setting's frame with some of its lights.
+struct SomeLights {
+  view::Frame frame;
+  view::LightArrays lights;
+
+  SomeLights(const Setting& setting, Random& random) : frame(setting.frame) {
+    std::erase_if(frame.lights, [&, share = random.unit()](const scene::WorldLight&) { return random.unit() < share; });
+    frame.count_types();
+    lights = view::lights_in(frame, grid::space_of(setting.grid, frame));
+  }
+};
+
+// The most that instances hold which share the frames, each frame's by chance.
+std::size_t most_scratch(const AssignerDescriptor& row, const Params& params, const Setting& setting,
+                         const std::vector<SomeLights>& frames, std::size_t instances, Random& random) {
+  std::vector<AssignerRun> runs;
+  for (std::size_t i = 0; i < instances; ++i) runs.emplace_back(row, params, Answer::lists).build(setting.grid);
+  std::size_t most = 0;
+  for (const SomeLights& frame : frames) {
+    AssignerRun& run = runs[random.below(instances)];
+    run.assign({frame.frame, frame.lights, setting.input(frame.lights).depth});
+    most = std::max(most, run.scratch_bytes());
+  }
+  return most;
+}
+
+TEST(EveryAssigner, that_shares_frames_holds_as_much_memory_as_one_that_gets_all) {
+  Random random(61);
+  int methods = 0;
+  for (const AssignerDescriptor* row : assigner_descriptors()) {
+    const Params params(row->params);
+    if (!row->answers(Answer::lists) || !AssignerRun(*row, params, Answer::lists).shares_frames()) continue;
+    ++methods;
+    for (const Setting& setting : settings_for(*row, 7)) {
+      std::vector<SomeLights> frames;
+      for (int i = 0; i < 6; ++i) frames.emplace_back(setting, random);
+      const std::size_t alone = most_scratch(*row, params, setting, frames, 1, random);
+      EXPECT_EQ(most_scratch(*row, params, setting, frames, 3, random), alone) << row->name << " on " << setting.name;
+    }
+  }
+  EXPECT_GE(methods, 10);
 }
 
 // --- Adding an assigner: a class and a row, as in a file of src/assign/assigners ---

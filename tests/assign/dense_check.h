@@ -25,6 +25,7 @@ class Random {
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
   double between(double lo, double hi) { return lo + (hi - lo) * unit(); }
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
   double log_between(double lo, double hi) { return lo * std::pow(hi / lo, unit()); }
   Vec3d direction() {
     const double z = between(-1, 1), angle = between(0, 2 * M_PI), beside = std::sqrt(1 - z * z);

@@ -133,6 +133,9 @@ std::vector<Leaf> leaves_of_a_case() {
   });
   return leaves;
 }
+std::vector<Leaf> some_leaves_of_a_case() {
+  return test::some(leaves_of_a_case(), 3);
+}
 
 // The same leaf larger (of numbers), or with another text, another list and so on.
 Json larger(const Json& value) {
@@ -196,7 +199,7 @@ class EveryLeaf : public ::testing::Test {
 
 TEST_F(EveryLeaf, that_is_larger_or_another_is_named_alone_and_judged_by_its_rule) {
   std::set<Compares> rules;
-  for (const Leaf& leaf : leaves_of_a_case()) {
+  for (const Leaf& leaf : some_leaves_of_a_case()) {
     expect_one_difference(leaf, larger(base_[Json::json_pointer(leaf.pointer)]));
     rules.insert(leaf.rule);
   }
@@ -204,19 +207,19 @@ TEST_F(EveryLeaf, that_is_larger_or_another_is_named_alone_and_judged_by_its_rul
 }
 
 TEST_F(EveryLeaf, that_is_smaller_is_named_alone_and_judged_by_its_rule) {
-  for (const Leaf& leaf : leaves_of_a_case())
+  for (const Leaf& leaf : some_leaves_of_a_case())
     if (const Json& old = base_[Json::json_pointer(leaf.pointer)]; old.is_number())
       expect_one_difference(leaf, smaller(old));
 }
 
 TEST_F(EveryLeaf, that_is_null_is_named_alone_and_judged_by_its_rule) {
-  for (const Leaf& leaf : leaves_of_a_case())
+  for (const Leaf& leaf : some_leaves_of_a_case())
     if (leaf.type->kind == Kind::number || leaf.type->kind == Kind::nullable) expect_one_difference(leaf, Json());
 }
 
 TEST_F(EveryLeaf, that_one_result_does_not_have_is_passed_over) {
   int removed = 0;
-  for (const Leaf& leaf : leaves_of_a_case()) {
+  for (const Leaf& leaf : some_leaves_of_a_case()) {
     if (!leaf.can_be_absent) continue;
     Json next = base_;
     const Json::json_pointer pointer(leaf.pointer);
@@ -225,14 +228,14 @@ TEST_F(EveryLeaf, that_one_result_does_not_have_is_passed_over) {
     EXPECT_EQ(compared(next).counts, "same") << leaf.pointer;
     ++removed;
   }
-  EXPECT_GT(removed, 50);
+  EXPECT_GT(removed, test::k_sanitized ? 15 : 50);
 }
 
 // With another allocation.margin recommended sizes differ, with other prices modelled costs, and nothing else does.
 TEST_F(EveryLeaf, follows_no_setting_but_recommended_sizes_the_margin_and_costs_the_prices) {
   const auto passed_over = [&](const SameSettings& same) {
     std::set<std::string> pointers;
-    for (const Leaf& leaf : leaves_of_a_case()) {
+    for (const Leaf& leaf : some_leaves_of_a_case()) {
       Json next = base_;
       Json& value = next[Json::json_pointer(leaf.pointer)];
       value = larger(value);
@@ -240,15 +243,20 @@ TEST_F(EveryLeaf, follows_no_setting_but_recommended_sizes_the_margin_and_costs_
     }
     return pointers;
   };
+  const auto some = [](std::set<std::string> pointers) {
+    const std::vector<Leaf> tried = some_leaves_of_a_case();
+    std::erase_if(pointers,
+                  [&](const std::string& one) { return std::ranges::find(tried, one, &Leaf::pointer) == tried.end(); });
+    return pointers;
+  };
   EXPECT_EQ(passed_over({}), std::set<std::string>());
-  EXPECT_EQ(passed_over({.margin = false}),
-            (std::set<std::string>{"/buffers/bytes/recommended", "/buffers/index_entries/recommended",
-                                   "/buffers/used_share/max", "/buffers/used_share/mean"}));
+  EXPECT_EQ(passed_over({.margin = false}), some({"/buffers/bytes/recommended", "/buffers/index_entries/recommended",
+                                                  "/buffers/used_share/max", "/buffers/used_share/mean"}));
   std::set<std::string> times{"/cost/gpu_ns",  "/cost/upload_ns", "/cost/traffic_ns",
                               "/cost/read_ns", "/cost/shade_ns",  "/cost/sets/volume/ns"};
-  EXPECT_EQ(passed_over({.prices = false}), times);
+  EXPECT_EQ(passed_over({.prices = false}), some(times));
   times.insert("/cost/sets/volume/divergence");
-  EXPECT_EQ(passed_over({.prices = false, .waves = false}), times);
+  EXPECT_EQ(passed_over({.prices = false, .waves = false}), some(times));
 }
 
 // Of each list, the whole one is named where its length differs.

@@ -133,6 +133,54 @@ TEST_P(Pipelines, let_users_behind_a_leader_use_what_it_left_two_frames_long) {
   }
 }
 
+// It must not overwrite what users behind it still read either, however many of its frames are in work.
+TEST_P(Pipelines, let_a_leader_that_is_apart_be_at_several_frames_and_users_behind_it_have_all_in_order) {
+  constexpr int k_places = 3, k_frames = 2000;
+  Log log;
+  FrameWork<Numbered> work = squares_into(log, 0);
+  std::array<int, k_places> left{};  // not guarded
+  std::atomic<int> begun = 0, at_once = 0, most_at_once = 0;
+  const auto leave = [&](const Numbered& frame) {
+    most_at_once = std::max(most_at_once.load(), ++at_once);
+    ++begun;
+    // Another thread can begin the next frame while this one is in work.
+    for (int i = 0; frame.number == 1 && GetParam() > 1 && begun < 3 && i < 10000; ++i) pause_ms(1);
+    left[static_cast<std::size_t>(frame.number % k_places)] = frame.square;
+    --at_once;
+  };
+  work.users.push_back({leave, FrameUser<Numbered>::k_none, k_places, true});
+  std::vector<int> read;
+  int differing = 0;
+  work.users.push_back(
+      {[&](const Numbered& frame) { read.push_back(left[static_cast<std::size_t>(frame.number % k_places)]); }, 0});
+  work.users.push_back({[&](const Numbered& frame) {
+                          if (frame.number % 100 == 0) pause_ms(1);
+                          differing += left[static_cast<std::size_t>(frame.number % k_places)] != frame.square;
+                        },
+                        0});
+  EXPECT_TRUE(run(work, k_frames));
+  EXPECT_EQ(begun, k_frames);
+  EXPECT_EQ(read, first_squares(k_frames));
+  EXPECT_EQ(differing, 0);
+  EXPECT_EQ(most_at_once > 1, GetParam() > 1);
+  EXPECT_LE(most_at_once, k_places);
+}
+
+TEST_P(Pipelines, throw_the_first_failure_of_a_leader_that_is_at_several_frames) {
+  Log log;
+  FrameWork<Numbered> work = squares_into(log, 0);
+  work.users.push_back({[](const Numbered& frame) {
+                          if (frame.number < 20) return;
+                          pause_ms(frame.number == 20 ? 20 : 0);
+                          throw std::runtime_error("leader " + std::to_string(frame.number));
+                        },
+                        FrameUser<Numbered>::k_none, 8, true});
+  int last = -1;
+  work.users.push_back({[&](const Numbered& frame) { last = frame.number; }, 0});
+  EXPECT_EQ(failure(work, 60), "leader 20");
+  EXPECT_EQ(last, 19);
+}
+
 TEST_P(Pipelines, end_with_a_stop_without_another_frame) {
   Log log;
   FrameWork<Numbered> work = squares_into(log, 2);

@@ -28,6 +28,7 @@ class AssignerRun {
   std::uint64_t tests_done() const { return assigner().tests_done(); }
   std::uint64_t fallbacks() const { return assigner().fallbacks(); }
   std::size_t scratch_bytes() const { return assigner().scratch_bytes(); }
+  bool shares_frames() const { return assigner().shares_frames(); }
 
  private:
   Assigner& assigner() const;

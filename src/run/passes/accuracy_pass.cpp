@@ -3,7 +3,6 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -30,15 +29,15 @@ class MethodWork {
   }
 
   // One user for all; or the method, and behind it its measures and each of its cases, if these need its lists alone.
-  void add_users(std::vector<User>& users, bool shares, const Stop& stop) {
-    if (!shares || !method_.is_done_with_lists())
+  // `places`: for the lists of so many frames; none: one user. `cells_stay`: as many in each frame.
+  void add_users(std::vector<User>& users, std::size_t places, bool cells_stay, const Stop& stop) {
+    if (places == 0 || !method_.is_done_with_lists())
       return users.push_back({[this, stop](const PreparedFrame& now) { add(now, stop); }});
+    lists_.resize(places);
     const std::size_t leader = users.size();
-    users.push_back({[this](const PreparedFrame& now) {
-      method_.assign(now);
-      method_.copy_lists(lists_of(now));
-    }});
-    users.push_back({[this](const PreparedFrame& now) { method_.measure(now, lists_of(now).cells()); }, leader});
+    users.push_back({[this](const PreparedFrame& now) { method_.fill(now, lists_of(now)); }, User::k_none,
+                     static_cast<int>(places), cells_stay && method_.run().shares_frames()});
+    users.push_back({[this](const PreparedFrame& now) { method_.add(now, lists_of(now)); }, leader});
     for (CaseMeter* meter : cases_)
       users.push_back({[this, meter, stop](const PreparedFrame& now) {
                          meter->add(now, lists_of(now));
@@ -71,12 +70,12 @@ class MethodWork {
       meter->add_known_samples(now, stop);
     }
   }
-  // The method is at most two frames ahead of its cases.
+  // The method is at most as many frames ahead of its cases.
   ListsOfFrame& lists_of(const PreparedFrame& now) { return lists_[static_cast<std::size_t>(now.at) % lists_.size()]; }
 
   MethodMeter& method_;
   std::vector<CaseMeter*> cases_;
-  std::array<ListsOfFrame, User::k_most_ahead> lists_;
+  std::vector<ListsOfFrame> lists_;
 };
 
 // Finds by true shadow rays which of the needed lights are lit.
@@ -198,11 +197,21 @@ class AccuracyPass {
     work.bytes = [](const PreparedFrame& now) { return now.bytes(); };
     if (has_many_samples_ || shadows_) work.after = [this](const PreparedFrame& now) { finish(now); };
     work.users_apart = !shadows_ && !runs_elsewhere(config_, group_);
-    const bool shares = config_.threads > 1 && work.users_apart;
+    const std::size_t places = config_.threads > 1 && work.users_apart ? places_of_lists() : 0;
     work.users.push_back({[this](const PreparedFrame& now) { start(now); }});
-    for (MethodWork& method : works_) method.add_users(work.users, shares, stop_);
+    for (MethodWork& method : works_) method.add_users(work.users, places, cells_stay(), stop_);
     return work;
   }
+
+  // Of each method: one for each thread and one that its cases read, or as many as fit, but two.
+  std::size_t places_of_lists() const {
+    const double most = static_cast<double>(group_.cells) * static_cast<double>(path_.frame(0).lights.size()) *
+                        sizeof(std::uint32_t) * static_cast<double>(methods_.size());
+    const double fit = static_cast<double>(k_most_bytes_ahead) / std::max(1.0, most);
+    return static_cast<std::size_t>(std::clamp(fit, 2.0, config_.threads + 1.0));
+  }
+  // Whether the grid of each frame has as many cells.
+  bool cells_stay() const { return !config_.grids[group_.grid].reaction; }
 
   std::unique_ptr<PreparedFrame> begun(int index) {
     on_frame_(index);

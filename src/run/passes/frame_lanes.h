@@ -27,7 +27,10 @@ class FrameLanes {
       : work_(work), frames_(frames), most_alive_(most_alive), stop_(stop), users_(work.users.size()) {}
 
   // The first frame, prepared.
-  void add(std::unique_ptr<Frame> first) { alive_.push_back({std::move(first), true, users_.size()}); }
+  void add(std::unique_ptr<Frame> first) {
+    alive_.push_back(begun_frame(std::move(first)));
+    alive_.back().is_prepared = true;
+  }
 
   // False if stopped before the end. Throws what one thread would throw: the first failure by frame, then by user.
   bool run(ThreadPool& pool) {
@@ -43,11 +46,12 @@ class FrameLanes {
   struct Alive {
     std::unique_ptr<Frame> frame;
     bool is_prepared = false;
+    std::vector<bool> is_used;  // by user
     std::size_t users_left = 0;
   };
   struct User {
-    int next = 0;  // its next frame
-    bool is_busy = false;
+    int next = 0;     // its next frame
+    int working = 0;  // threads at its frames
   };
 
   void take_part() {
@@ -61,6 +65,9 @@ class FrameLanes {
     changed_.notify_all();
   }
 
+  Alive begun_frame(std::unique_ptr<Frame> frame) const {
+    return {std::move(frame), false, std::vector<bool>(users_.size()), users_.size()};
+  }
   Alive& alive(int frame) { return alive_[static_cast<std::size_t>(frame - first_alive_)]; }
   int end_of_alive() const { return first_alive_ + static_cast<int>(alive_.size()); }
   // One thread would not get there.
@@ -68,20 +75,23 @@ class FrameLanes {
 
   bool can_go_on(std::size_t user) {
     const User& one = users_[user];
-    return !one.is_busy && one.next < end_of_alive() && alive(one.next).is_prepared &&
-           !is_after_failure({one.next, user + 1}) && is_led(user) && is_followed(user);
+    return (one.working == 0 || work_.users[user].is_apart) && one.next < end_of_alive() &&
+           alive(one.next).is_prepared && !is_after_failure({one.next, user + 1}) && is_led(user) && is_followed(user);
   }
-  bool is_led(std::size_t user) const {
+  bool is_led(std::size_t user) {
     const std::size_t leader = work_.users[user].leader;
-    return leader == FrameUser<Frame>::k_none || users_[leader].next > users_[user].next;
+    return leader == FrameUser<Frame>::k_none || alive(users_[user].next).is_used[leader];
   }
   // Whether all users behind this one are near enough.
   bool is_followed(std::size_t user) const {
     for (std::size_t other = user + 1; other < users_.size(); ++other)
-      if (work_.users[other].leader == user && users_[user].next - users_[other].next >= FrameUser<Frame>::k_most_ahead)
+      if (work_.users[other].leader == user &&
+          users_[user].next - frames_done_by(other) >= work_.users[user].most_ahead)
         return false;
     return true;
   }
+  // Of a user that is not apart.
+  int frames_done_by(std::size_t user) const { return users_[user].next - users_[user].working; }
 
   // The following return false if there is nothing of the kind to do now.
   bool use_next(Lock& lock) {
@@ -89,12 +99,13 @@ class FrameLanes {
     for (std::size_t user = 0; user < users_.size(); ++user)
       if (can_go_on(user) && (last == users_.size() || users_[user].next < users_[last].next)) last = user;
     if (last == users_.size()) return false;
-    User& user = users_[last];
-    const Frame& frame = *alive(user.next).frame;
-    user.is_busy = true;
-    do_part(lock, {user.next, last + 1}, [&] { work_.users[last].use(frame); });
-    user.is_busy = false;
-    --alive(user.next++).users_left;
+    const int number = users_[last].next++;
+    const Frame& frame = *alive(number).frame;
+    ++users_[last].working;
+    do_part(lock, {number, last + 1}, [&] { work_.users[last].use(frame); });
+    --users_[last].working;
+    alive(number).is_used[last] = true;
+    --alive(number).users_left;
     drop_used();
     return true;
   }
@@ -105,7 +116,7 @@ class FrameLanes {
     if (number >= frames_ || alive_.size() >= most_alive_ || is_after_failure(part)) return false;
     std::unique_ptr<Frame> begun = this->begun(part);
     if (!begun) return true;
-    alive_.push_back({std::move(begun), false, users_.size()});
+    alive_.push_back(begun_frame(std::move(begun)));
     Frame& frame = *alive_.back().frame;
     do_part(lock, part, [&] { work_.prepare(frame); });
     alive(number).is_prepared = true;

@@ -12,11 +12,13 @@ namespace clusterbench::run {
 template <class Frame>
 struct FrameUser {
   static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
-  // A leader is at most this many frames ahead of the users behind it: what it leaves for them has two places.
-  static constexpr int k_most_ahead = 2;
 
   std::function<void(const Frame&)> use;
   std::size_t leader = k_none;  // an earlier user, which has each frame before this one
+  // A leader is at most this many frames ahead of the users behind it: what it leaves for them has so many places.
+  int most_ahead = 2;
+  // Begins frames in order, and may be at several at a time.
+  bool is_apart = false;
 };
 
 template <class Frame>

@@ -24,7 +24,8 @@ MethodMeter::MethodMeter(const config::Config& config, const Method& method, con
       threads_(config.threads),
       most_lights_(most_lights),
       shadows_(shadows),
-      run_(config, method, pre_cull) {
+      run_(config, method, pre_cull),
+      instances_(std::make_unique<MethodInstances>(config, method)) {
   measures_.method = method;
   if (shadows != nullptr && method.answer == assign::Answer::lists)
     for (const config::ShadowCullRequest& request : config.shadow_culls)
@@ -39,6 +40,12 @@ void MethodMeter::add(const PreparedFrame& now) {
   if (measures_.has_cells) measure(now, run_.cell_lists());
 }
 
+void MethodMeter::add(const PreparedFrame& now, const ListsOfFrame& lists) {
+  measures_.tests_done += lists.tests_done;
+  measures_.fallbacks += lists.fallbacks;
+  measure(now, lists.cells());
+}
+
 void MethodMeter::assign(const PreparedFrame& now) {
   grid_ = now.grid;
   const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
@@ -47,14 +54,6 @@ void MethodMeter::assign(const PreparedFrame& now) {
   if (cull_meter_) cull_meter_->add_frame(*run_.cull(), now.frame, run_.cull_is_conservative(now.frame, lights));
   measures_.tests_done += run_.tests_done();
   measures_.fallbacks += run_.fallbacks();
-}
-
-void MethodMeter::copy_lists(ListsOfFrame& out) const {
-  const assign::Lists& filled = *run_.filled_lists();
-  out.filled = filled;
-  out.ascending.reset();
-  if (const assign::Lists& cells = run_.cell_lists(); &cells != &filled) out.ascending = cells;
-  out.scratch_bytes = run_.scratch_bytes();
 }
 
 void MethodMeter::measure(const PreparedFrame& now, const assign::Lists& lists) {

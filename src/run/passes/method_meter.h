@@ -10,6 +10,7 @@
 #include "run/cases/path_culls.h"
 #include "run/findings/light_shadows.h"
 #include "run/passes/accuracy_pass.h"
+#include "run/passes/method_instances.h"
 #include "run/passes/prepared_frame.h"
 
 namespace clusterbench::run {
@@ -23,12 +24,12 @@ class MethodMeter {
               bool has_too_many_cells);
 
   void add(const PreparedFrame& now);
-  void assign(const PreparedFrame& now);
-  // Whether the lists are all that cases and measures need of the method.
+  // Whether the lists are all that cases and measures need of the method. Then they can be filled apart from the rest:
   bool is_done_with_lists() const { return run_.filled_lists() != nullptr && run_.cull() == nullptr; }
-  void copy_lists(ListsOfFrame& out) const;
-  // `lists`: of the cells; they must stay until the next call.
-  void measure(const PreparedFrame& now, const assign::Lists& lists);
+  // At several frames at a time if run().shares_frames(), else one after another.
+  void fill(const PreparedFrame& now, ListsOfFrame& out) { instances_->fill(now, out); }
+  // Frame by frame. `lists` must stay until the next call.
+  void add(const PreparedFrame& now, const ListsOfFrame& lists);
   // Evaluates some samples of visible surfaces; `is_lit`: one row per way to remove lights in shadow.
   void add_lit_samples(const grid::Grid& grid, std::span<const grid::Sample> samples,
                        const measure::NeededLights& needed, const std::vector<std::vector<bool>>& is_lit);
@@ -48,6 +49,8 @@ class MethodMeter {
   MethodMeasures result() const;
 
  private:
+  void assign(const PreparedFrame& now);
+  void measure(const PreparedFrame& now, const assign::Lists& lists);  // of the cells
   void compare(const PreparedFrame& now, const grid::Grid& grid);
 
   bool compares_;
@@ -56,6 +59,7 @@ class MethodMeter {
   LightShadows* shadows_;
   std::shared_ptr<const grid::Grid> grid_;  // for which the method is built
   CulledRun run_;
+  std::unique_ptr<MethodInstances> instances_;  // that fill()
   std::optional<PreCullMeter> cull_meter_;
   std::vector<ShadowCullMeter> shadow_culls_;  // one per way, for lists only
   const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame

@@ -36,11 +36,12 @@ struct PreparedFrame {
   std::size_t bytes() const;
 };
 
-// A method's lists of one frame, copied for those that use them while the method is at the next frame.
+// A method's lists of one frame, copied for those that use them while the method is at other frames.
 struct ListsOfFrame {
   assign::Lists filled;                    // as the method filled them
   std::optional<assign::Lists> ascending;  // if those are not
   std::size_t scratch_bytes = 0;
+  std::uint64_t tests_done = 0, fallbacks = 0;
 
   const assign::Lists& cells() const { return ascending ? *ascending : filled; }
 };
