@@ -99,13 +99,4 @@ std::optional<GroupCounts> count_group(const config::Config& config, const Scene
   return GroupCounting(config, data, group, path, on_counting, stop).counts();
 }
 
-double most_list_bytes(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
-  const view::Frame frame = path.frame(0);
-  GridOfFrames grids(config.grids[group.grid]);
-  grids.update(path, frame);
-  const double lists = 1.0 + static_cast<double>(methods_of(group).size());
-  return lists * static_cast<double>(grids.grid().cell_count()) * static_cast<double>(frame.lights.size()) *
-         sizeof(std::uint32_t);
-}
-
 }  // namespace clusterbench::run

@@ -39,8 +39,4 @@ using OnCounting = std::function<void(CountingStage stage, double share)>;
 std::optional<GroupCounts> count_group(const config::Config& config, const SceneData& data, const GroupPlan& group,
                                        const PathFrames& path, const OnCounting& on_counting, const Stop& stop);
 
-// The largest size of the lists of a frame that methods and truth could have, in bytes, if each light were in each
-// cell.
-double most_list_bytes(const config::Config& config, const GroupPlan& group, const PathFrames& path);
-
 }  // namespace clusterbench::run

@@ -23,6 +23,7 @@
 #include "run/counted_group.h"
 #include "run/findings/broken_cases.h"
 #include "run/findings/gate.h"
+#include "run/passes/accuracy_pass.h"
 #include "run/passes/device_pass.h"
 #include "run/passes/reading_pass.h"
 #include "run/passes/timing_pass.h"

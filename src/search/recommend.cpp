@@ -16,7 +16,6 @@
 #include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
-#include "run/counted_group.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
 

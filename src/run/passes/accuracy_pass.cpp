@@ -205,9 +205,7 @@ class AccuracyPass {
 
   // Of each method: one for each thread and one that its cases read, or as many as fit, but two.
   std::size_t places_of_lists() const {
-    const double most = static_cast<double>(group_.cells) * static_cast<double>(path_.frame(0).lights.size()) *
-                        sizeof(std::uint32_t) * static_cast<double>(methods_.size());
-    const double fit = static_cast<double>(k_most_bytes_ahead) / std::max(1.0, most);
+    const double fit = static_cast<double>(k_most_bytes_ahead) / std::max(1.0, most_list_bytes(config_, group_, path_));
     return static_cast<std::size_t>(std::clamp(fit, 2.0, config_.threads + 1.0));
   }
   // Whether the grid of each frame has as many cells.
@@ -300,6 +298,15 @@ class AccuracyPass {
 };
 
 }  // namespace
+
+double most_list_bytes(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
+  const view::Frame frame = path.frame(0);
+  GridOfFrames grids(config.grids[group.grid]);
+  grids.update(path, frame);
+  const double lists = 1.0 + static_cast<double>(methods_of(group).size());
+  return lists * static_cast<double>(grids.grid().cell_count()) * static_cast<double>(frame.lights.size()) *
+         sizeof(std::uint32_t);
+}
 
 CaseSide structure_side(const StructureMeasures& measures) {
   CaseSide side;

@@ -56,6 +56,10 @@ CaseSide structure_side(const StructureMeasures& measures);
 // Whether lists are compared with the lists of the previous frame.
 enum class ListsOverFrames { ignored, compared };
 
+// The largest size of the lists of a frame that methods and truth could have, in bytes, if each light were in each
+// cell.
+double most_list_bytes(const config::Config& config, const GroupPlan& group, const PathFrames& path);
+
 // Frames are prepared, and methods work, on config.threads threads; results do not depend on their number. Methods that
 // run elsewhere (runs_elsewhere()) are called by the calling thread alone, and so is `on_frame`, before each frame.
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
