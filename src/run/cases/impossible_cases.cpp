@@ -121,7 +121,7 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
 
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data) {
   if (request.needs_triangles() && !ground_height(request, data))
-    if (const std::string unseen = data.surface_obstacle(); !unseen.empty()) return unseen;
+    if (std::string unseen = data.surface_obstacle(); !unseen.empty()) return unseen;
   const bool has_bounds = std::ranges::any_of(data.scene.lights, [](const scene::Light& light) {
     return light.type != scene::LightType::directional && std::isfinite(geom::range_in_domain(light.range_m));
   });
