@@ -1,6 +1,7 @@
 // What holds for every registered assigner, and what it takes to add one.
 
 #include <algorithm>
+#include <utility>
 
 #include "assign/contract.h"
 #include "assign/contract/assigner_run.h"
@@ -46,33 +47,50 @@ struct SomeLights {
   }
 };
 
-// The most that instances hold which share the frames, each frame's by chance.
-std::size_t most_scratch(const AssignerDescriptor& row, const Params& params, const Setting& setting,
+// The most that instances hold which share the frames, each frame's by chance. The grids, which have the same number of
+// cells, take turns.
+std::size_t most_scratch(const AssignerDescriptor& row, const Setting& setting, const std::vector<grid::Grid>& grids,
                          const std::vector<SomeLights>& frames, std::size_t instances, Random& random) {
   std::vector<AssignerRun> runs;
-  for (std::size_t i = 0; i < instances; ++i) runs.emplace_back(row, params, Answer::lists).build(setting.grid);
+  for (std::size_t i = 0; i < instances; ++i) runs.emplace_back(row, Params(row.params), Answer::lists);
+  std::vector<const grid::Grid*> built(instances);
   std::size_t most = 0;
-  for (const SomeLights& frame : frames) {
-    AssignerRun& run = runs[random.below(instances)];
-    run.assign({frame.frame, frame.lights, setting.input(frame.lights).depth});
-    most = std::max(most, run.scratch_bytes());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::size_t instance = random.below(instances);
+    const grid::Grid& grid = grids[i % grids.size()];
+    if (std::exchange(built[instance], &grid) != &grid) runs[instance].build(grid);
+    runs[instance].assign({frames[i].frame, frames[i].lights, setting.input(frames[i].lights).depth});
+    most = std::max(most, runs[instance].scratch_bytes());
   }
   return most;
+}
+
+// The setting's grid, and for one of tiles as many slices elsewhere, as grids have that follow their frames.
+std::vector<grid::Grid> grids_of(const Setting& setting, bool is_following) {
+  std::vector<grid::Grid> grids;
+  if (!is_following || setting.grid.kind() != grid::Kind::frustum) return {setting.grid};
+  for (const double scale : {1.0, 2.0, 3.5})
+    grids.push_back(grid_of(settings::screen_spec(grid::Kind::frustum, {9, 6}, grid::Scheme::exponential, 12,
+                                                  scale * setting.frame.projection.near_m),
+                            setting.frame));
+  return grids;
 }
 
 TEST(EveryAssigner, that_shares_frames_holds_as_much_memory_as_one_that_gets_all) {
   Random random(61);
   int methods = 0;
   for (const AssignerDescriptor* row : assigner_descriptors()) {
-    const Params params(row->params);
-    if (!row->answers(Answer::lists) || !AssignerRun(*row, params, Answer::lists).shares_frames()) continue;
+    if (!row->answers(Answer::lists) || !AssignerRun(*row, Params(row->params), Answer::lists).shares_frames())
+      continue;
     ++methods;
-    for (const Setting& setting : settings_for(*row, 7)) {
-      std::vector<SomeLights> frames;
-      for (int i = 0; i < 6; ++i) frames.emplace_back(setting, random);
-      const std::size_t alone = most_scratch(*row, params, setting, frames, 1, random);
-      EXPECT_EQ(most_scratch(*row, params, setting, frames, 3, random), alone) << row->name << " on " << setting.name;
-    }
+    for (const Setting& setting : settings_for(*row, 7))
+      for (const bool is_following : {false, true}) {
+        const std::vector<grid::Grid> grids = grids_of(setting, is_following);
+        std::vector<SomeLights> frames;
+        for (int i = 0; i < 6; ++i) frames.emplace_back(setting, random);
+        const std::size_t alone = most_scratch(*row, setting, grids, frames, 1, random);
+        EXPECT_EQ(most_scratch(*row, setting, grids, frames, 3, random), alone) << row->name << " on " << setting.name;
+      }
   }
   EXPECT_GE(methods, 10);
 }

@@ -134,7 +134,7 @@ TEST_P(Pipelines, let_users_behind_a_leader_use_what_it_left_two_frames_long) {
 }
 
 // It must not overwrite what users behind it still read either, however many of its frames are in work.
-TEST_P(Pipelines, let_a_leader_that_is_apart_be_at_several_frames_and_users_behind_it_have_all_in_order) {
+TEST_P(Pipelines, let_a_concurrent_leader_work_on_several_frames_and_users_behind_it_have_all_in_order) {
   constexpr int k_places = 3, k_frames = 2000;
   Log log;
   FrameWork<Numbered> work = squares_into(log, 0);
@@ -166,7 +166,7 @@ TEST_P(Pipelines, let_a_leader_that_is_apart_be_at_several_frames_and_users_behi
   EXPECT_LE(most_at_once, k_places);
 }
 
-TEST_P(Pipelines, throw_the_first_failure_of_a_leader_that_is_at_several_frames) {
+TEST_P(Pipelines, throw_the_first_failure_of_a_concurrent_leader) {
   Log log;
   FrameWork<Numbered> work = squares_into(log, 0);
   work.users.push_back({[](const Numbered& frame) {

@@ -109,8 +109,8 @@ class Assigner {
   virtual std::vector<ShaderStatistic> shader_statistics() const { return {}; }
   // Present size of the scratch memory.
   virtual std::size_t scratch_bytes() const = 0;
-  // Whether that is the most that any frame so far needs, in whatever order they came. Then several instances can share
-  // the frames of a path, and the one that holds most holds as much as one that gets all.
+  // True if that depends on the frame that needed most, and not on the order of frames. Then several instances can
+  // share the frames of a path: the one that holds most holds as much as a single one that gets all frames.
   virtual bool shares_frames() const { return false; }
 };
 

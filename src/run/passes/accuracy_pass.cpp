@@ -29,7 +29,8 @@ class MethodWork {
   }
 
   // One user for all; or the method, and behind it its measures and each of its cases, if these need its lists alone.
-  // `places`: for the lists of so many frames; none: one user. `cells_stay`: as many in each frame.
+  // `places`: for the lists of so many frames; none: one user. `cells_stay`: the grids of all frames have the same
+  // number of cells.
   void add_users(std::vector<User>& users, std::size_t places, bool cells_stay, const Stop& stop) {
     if (places == 0 || !method_.is_done_with_lists())
       return users.push_back({[this, stop](const PreparedFrame& now) { add(now, stop); }});
@@ -70,7 +71,7 @@ class MethodWork {
       meter->add_known_samples(now, stop);
     }
   }
-  // The method is at most as many frames ahead of its cases.
+  // The method is at most so many frames ahead of its cases.
   ListsOfFrame& lists_of(const PreparedFrame& now) { return lists_[static_cast<std::size_t>(now.at) % lists_.size()]; }
 
   MethodMeter& method_;
@@ -208,7 +209,7 @@ class AccuracyPass {
     const double fit = static_cast<double>(k_most_bytes_ahead) / std::max(1.0, most_list_bytes(config_, group_, path_));
     return static_cast<std::size_t>(std::clamp(fit, 2.0, config_.threads + 1.0));
   }
-  // Whether the grid of each frame has as many cells.
+  // True if the grids of all frames have the same number of cells.
   bool cells_stay() const { return !config_.grids[group_.grid].reaction; }
 
   std::unique_ptr<PreparedFrame> begun(int index) {

@@ -75,7 +75,7 @@ class FrameLanes {
 
   bool can_go_on(std::size_t user) {
     const User& one = users_[user];
-    return (one.working == 0 || work_.users[user].is_apart) && one.next < end_of_alive() &&
+    return (one.working == 0 || work_.users[user].is_concurrent) && one.next < end_of_alive() &&
            alive(one.next).is_prepared && !is_after_failure({one.next, user + 1}) && is_led(user) && is_followed(user);
   }
   bool is_led(std::size_t user) {
@@ -90,7 +90,7 @@ class FrameLanes {
         return false;
     return true;
   }
-  // Of a user that is not apart.
+  // By a user that is not concurrent.
   int frames_done_by(std::size_t user) const { return users_[user].next - users_[user].working; }
 
   // The following return false if there is nothing of the kind to do now.

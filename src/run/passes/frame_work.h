@@ -17,8 +17,8 @@ struct FrameUser {
   std::size_t leader = k_none;  // an earlier user, which has each frame before this one
   // A leader is at most this many frames ahead of the users behind it: what it leaves for them has so many places.
   int most_ahead = 2;
-  // Begins frames in order, and may be at several at a time.
-  bool is_apart = false;
+  // May work on several frames at once; begins them in order.
+  bool is_concurrent = false;
 };
 
 template <class Frame>

@@ -26,7 +26,7 @@ class MethodMeter {
   void add(const PreparedFrame& now);
   // Whether the lists are all that cases and measures need of the method. Then they can be filled apart from the rest:
   bool is_done_with_lists() const { return run_.filled_lists() != nullptr && run_.cull() == nullptr; }
-  // At several frames at a time if run().shares_frames(), else one after another.
+  // Several threads may call it for different frames if run().shares_frames(); else frame by frame.
   void fill(const PreparedFrame& now, ListsOfFrame& out) { instances_->fill(now, out); }
   // Frame by frame. `lists` must stay until the next call.
   void add(const PreparedFrame& now, const ListsOfFrame& lists);
