@@ -9,15 +9,19 @@ import { chromium } from "playwright-core";
 
 export const chromiumPath = [
   process.env.CHROMIUM,
+  "/usr/bin/chromium-headless-shell", // the same without windows, which takes half the time
   "/usr/bin/chromium",
   "/usr/bin/chromium-browser",
   "/usr/bin/google-chrome",
 ].find((path) => path && existsSync(path));
 
+const timeout = 120_000; // ms; Playwright's own half a minute can pass where other tests and other users have the processors
+
 export const launch = (more = []) =>
   chromium.launch({
     executablePath: chromiumPath,
     headless: true,
+    timeout,
     args: [
       "--no-sandbox",
       "--disable-gpu",
@@ -41,6 +45,7 @@ export const webGlInSoftware = [
 // Opens a page and collects in `faults` whatever it should not do. `levels`: of its console.
 export async function open(browser, url, { levels = ["error", "warning"], ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  context.setDefaultTimeout(timeout);
   const page = await context.newPage();
   page.faults = [];
   page.on("console", (message) => levels.includes(message.type()) && page.faults.push(message.text()));
