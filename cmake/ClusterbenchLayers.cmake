@@ -96,6 +96,12 @@ endif()
 
 set(CLUSTERBENCH_UNITED_LAYERS scene measure)
 
+# Where sanitizers look at a few layers, as in .ci/run, the others can be those of another build: without sanitizers, quick to run
+# and not built again. Their files are exchanged for its archive when all layers are declared (clusterbench_rest).
+set(CLUSTERBENCH_REST_FROM "" CACHE PATH "A build without sanitizers, whose layers stand in for those that CLUSTERBENCH_SANITIZED_LAYERS does not name")
+set(CLUSTERBENCH_SANITIZED_LAYERS "" CACHE STRING "With CLUSTERBENCH_REST_FROM: what is built here, beside all layers whose code is not timed")
+set(CLUSTERBENCH_REST "")
+
 macro(clusterbench_layer NAME)
   cmake_parse_arguments(LAYER "" "" "ONLY;EXCEPT;LINK" ${ARGN})
   file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
@@ -122,9 +128,28 @@ macro(clusterbench_layer NAME)
     target_precompile_headers(cb_${NAME} REUSE_FROM clusterbench_precompiled)
     target_compile_options(cb_${NAME} PRIVATE -fpch-preprocess) # ccache asks for it
   endif()
+  if(CLUSTERBENCH_REST_FROM AND NOT ${NAME} IN_LIST CLUSTERBENCH_SANITIZED_LAYERS AND NOT ${NAME} IN_LIST CLUSTERBENCH_UNTIMED_LAYERS)
+    list(APPEND CLUSTERBENCH_REST ${NAME})
+    add_library(rest_${NAME} STATIC IMPORTED)
+    set_target_properties(rest_${NAME} PROPERTIES IMPORTED_LOCATION ${CLUSTERBENCH_REST_FROM}/libcb_${NAME}.a)
+    target_link_libraries(rest_${NAME} INTERFACE clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})
+    target_link_libraries(cb_${NAME} PUBLIC rest_${NAME})
+  endif()
   target_link_libraries(cb_${NAME} PUBLIC clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})
   list(PREPEND CLUSTERBENCH_ABOVE cb_${NAME})
 endmacro()
+
+# clusterbench_rest(): leaves nothing to build of the layers that come from CLUSTERBENCH_REST_FROM.
+function(clusterbench_rest)
+  set(NOTHING ${CMAKE_CURRENT_BINARY_DIR}/nothing.cpp)
+  file(CONFIGURE OUTPUT ${NOTHING} CONTENT "// of another build\n")
+  foreach(NAME ${CLUSTERBENCH_REST})
+    if(NOT EXISTS ${CLUSTERBENCH_REST_FROM}/libcb_${NAME}.a)
+      message(FATAL_ERROR "CLUSTERBENCH_REST_FROM: ${CLUSTERBENCH_REST_FROM} has no libcb_${NAME}.a; build it first")
+    endif()
+    set_property(TARGET cb_${NAME} PROPERTY SOURCES ${NOTHING})
+  endforeach()
+endfunction()
 
 macro(clusterbench_program NAME)
   clusterbench_layer(${NAME} ${ARGN})
