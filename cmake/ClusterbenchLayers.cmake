@@ -99,7 +99,7 @@ set(CLUSTERBENCH_UNITED_LAYERS scene measure)
 # Where sanitizers look at a few layers, as in .ci/run, the others can be those of another build: without sanitizers, quick to run
 # and not built again. Their files are exchanged for its archive when all layers are declared (clusterbench_rest).
 set(CLUSTERBENCH_REST_FROM "" CACHE PATH "A build without sanitizers, whose layers stand in for those that CLUSTERBENCH_SANITIZED_LAYERS does not name")
-set(CLUSTERBENCH_SANITIZED_LAYERS "" CACHE STRING "With CLUSTERBENCH_REST_FROM: what is built here, beside all layers whose code is not timed")
+set(CLUSTERBENCH_SANITIZED_LAYERS "" CACHE STRING "With CLUSTERBENCH_REST_FROM: the layers that are built here")
 set(CLUSTERBENCH_REST "")
 
 macro(clusterbench_layer NAME)
@@ -128,7 +128,7 @@ macro(clusterbench_layer NAME)
     target_precompile_headers(cb_${NAME} REUSE_FROM clusterbench_precompiled)
     target_compile_options(cb_${NAME} PRIVATE -fpch-preprocess) # ccache asks for it
   endif()
-  if(CLUSTERBENCH_REST_FROM AND NOT ${NAME} IN_LIST CLUSTERBENCH_SANITIZED_LAYERS AND NOT ${NAME} IN_LIST CLUSTERBENCH_UNTIMED_LAYERS)
+  if(CLUSTERBENCH_REST_FROM AND NOT ${NAME} IN_LIST CLUSTERBENCH_SANITIZED_LAYERS)
     list(APPEND CLUSTERBENCH_REST ${NAME})
     add_library(rest_${NAME} STATIC IMPORTED)
     set_target_properties(rest_${NAME} PROPERTIES IMPORTED_LOCATION ${CLUSTERBENCH_REST_FROM}/libcb_${NAME}.a)

@@ -56,7 +56,7 @@ add_library(plugin_contributing MODULE ${CONTRIBUTING_EXAMPLE} ${CMAKE_CURRENT_S
   ${EXAMPLE_NEEDS})
 set_target_properties(plugin_contributing PROPERTIES PREFIX "" SUFFIX ".so" OUTPUT_NAME contributing
   LIBRARY_OUTPUT_DIRECTORY ${PLUGIN_FOLDER} CXX_VISIBILITY_PRESET hidden)
-target_compile_options(plugin_contributing PRIVATE -ffp-contract=off -ffunction-sections -fdata-sections)
+target_compile_options(plugin_contributing PRIVATE -ffp-contract=off -ffunction-sections -fdata-sections ${CLUSTERBENCH_COLD_OPTIONS})
 target_include_directories(plugin_contributing PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(plugin_contributing PRIVATE glm::glm)
 target_link_options(plugin_contributing PRIVATE -Wl,--gc-sections -Wl,--no-undefined)
