@@ -39,7 +39,8 @@ if(CLUSTERBENCH_SANITIZE)
   target_compile_options(clusterbench_flags INTERFACE
     -fsanitize=${CLUSTERBENCH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(clusterbench_flags INTERFACE -fsanitize=${CLUSTERBENCH_SANITIZE})
-  if(CLUSTERBENCH_REST_FROM) # of a type that it has not seen yet this check asks through a pipe, also where a test leaves no file to open
+  # The check of dynamic types opens a pipe for each type that is new to it. It fails in a test that allows no more open files.
+  if(CLUSTERBENCH_REST_FROM)
     target_compile_options(clusterbench_flags INTERFACE -fno-sanitize=vptr)
   endif()
   # Two dozen programs of 100 MB and more are linked; lld takes a fraction of ld's time.

@@ -94,7 +94,7 @@ export const inTable = async (page, selector = "#ranking") => {
 };
 export const isAscending = (values) => values.every((value, at) => at === 0 || values[at - 1] <= value);
 
-// Opens all that is closed.
+// Opens every closed part of the page, and waits for the tables in them.
 export async function openAll(page) {
   for (const summary of await page.locator("summary").all()) await summary.click();
   await page.waitForFunction(() => !document.querySelector("figure > details[open]:not(:has(.figure-data))"));

@@ -19,6 +19,9 @@ class SanitizedParts(unittest.TestCase):
         layers = re.search(r"foreach\(LAYER (.*)\)", TESTS).group(1).split()
         self.assertEqual(sorted(words("layers")), sorted([*layers, "own_threads"]))
 
+    def test_add_only_layers_that_there_are(self):
+        self.assertLessEqual(set(words("also")), {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
+
     def test_are_as_many_as_the_seed_chooses_from(self):
         parts = int(re.search(r"case \$\(\(seed % (\d+)\)\)", CI).group(1))
         cases = re.findall(r"^  (\d+)\)$", CI, re.MULTILINE)
