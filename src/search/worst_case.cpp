@@ -14,6 +14,7 @@
 #include "measure/lists/lights_in_view_counts.h"
 #include "search/best_frames.h"
 #include "search/frame_rater.h"
+#include "search/frames_in_turn.h"
 #include "search/optimizer.h"
 #include "search/search_progress.h"
 #include "search/worst_case_request.h"
@@ -21,8 +22,8 @@
 namespace clusterbench::search {
 namespace {
 
-// Parts of the work that are the same for any number of threads.
-constexpr int k_tasks = 16;
+constexpr int k_parts_of_path = 16;
+// The same for any number of threads.
 constexpr int k_global_searches = 4, k_local_searches = 4;
 
 Box box_of(const LightRig& rig, const scene::CameraPath& path) {
@@ -51,7 +52,8 @@ class WorstCaseSearch {
         clock_(request.seconds, stop),
         stop_(stop),
         progress_(listener, frames_to_rate()),
-        best_(kept(), near_m()) {}
+        best_(kept(), near_m()),
+        random_(request.random, [this](int i) { return random_frame(i, 1); }) {}
 
   double estimated_s() {
     constexpr int k_most_frames = 16;
@@ -104,6 +106,7 @@ class WorstCaseSearch {
  private:
   const scene::CameraProjection& projection() const { return path_.shots.front().projection; }
   FrameRater rater() const { return {config_, case_, request_.measure, rig_, projection()}; }
+  std::size_t threads() const { return static_cast<std::size_t>(std::max(1, request_.threads)); }
   int frames_to_rate() const { return static_cast<int>(path_.shots.size()) + request_.evaluations + request_.random; }
 
   std::optional<Walkable> floor_of(const scene::Scene& scene) const {
@@ -176,9 +179,9 @@ class WorstCaseSearch {
   // Of these frames of the recorded path.
   std::vector<double> recorded_values(const run::PathFrames& recorded, const std::vector<int>& frames) {
     std::vector<double> values(frames.size());
-    each_task(k_tasks, [&](std::size_t task) {
-      const auto begin = static_cast<std::ptrdiff_t>(task * frames.size() / k_tasks),
-                 end = static_cast<std::ptrdiff_t>((task + 1) * frames.size() / k_tasks);
+    each_task(k_parts_of_path, [&](std::size_t part) {
+      const auto begin = static_cast<std::ptrdiff_t>(part * frames.size() / k_parts_of_path),
+                 end = static_cast<std::ptrdiff_t>((part + 1) * frames.size() / k_parts_of_path);
       if (begin == end || stop_) return;
       const run::PathFrames some = recorded.only({frames.begin() + begin, frames.begin() + end});
       std::ranges::copy(values_along(config_, case_, request_.measure, some, [this] { progress_.step(); }),
@@ -201,24 +204,28 @@ class WorstCaseSearch {
 
   // Rates this many frames; `frame_of(i)` gives each, `is_over()` ends it early. Returns the number of rated frames.
   template <class FrameOf, class IsOver>
-  int rate_each(int count, BestFrames& best, FrameOf frame_of, IsOver is_over, std::vector<double>* values = nullptr) {
-    std::vector<BestFrames> found(k_tasks, BestFrames(kept(), near_m()));
-    std::atomic<int> rated = 0;
-    each_task(k_tasks, [&](std::size_t task) {
-      const int begin = static_cast<int>(task) * count / k_tasks, end = static_cast<int>(task + 1) * count / k_tasks;
-      if (begin == end || is_over()) return;
-      FrameRater meter = rater();
-      for (int i = begin; i < end && !is_over(); ++i) {
-        RatedFrame frame = frame_of(i);
-        frame.value = meter.rate(frame.choice);
-        found[task].add(frame);
-        if (values != nullptr) (*values)[static_cast<std::size_t>(i)] = frame.value;
-        ++rated;
-        progress_.step();
+  int rate_each(int count, BestFrames& best, FrameOf frame_of, IsOver is_over) {
+    FramesInTurn frames(count, frame_of);
+    rate_all(frames, is_over);
+    frames.add_to(best);
+    return frames.rated();
+  }
+  template <class IsOver>
+  void rate_all(FramesInTurn& frames, IsOver is_over) {
+    each_task(threads(), [&](std::size_t /*thread*/) {
+      std::optional<FrameRater> meter;
+      while (!is_over() && rate_next(frames, meter)) {
       }
     });
-    for (const BestFrames& task : found) best.add_all(task);
-    return rated;
+  }
+  // False if no frame is left.
+  bool rate_next(FramesInTurn& frames, std::optional<FrameRater>& meter) {
+    const std::optional<int> frame = frames.next();
+    if (!frame) return false;
+    if (!meter) meter.emplace(rater());
+    frames.rate(*frame, *meter);
+    progress_.step();
+    return true;
   }
   std::size_t kept() const {
     return std::max<std::size_t>(static_cast<std::size_t>(request_.frames), k_local_searches);
@@ -271,25 +278,48 @@ class WorstCaseSearch {
                   count, best_, [this](int i) { return random_frame(i, 0); }, [this] { return clock_.is_over(); }));
   }
 
-  // Runs tasks that each rate frames one after the other; their frames are added in the tasks' order.
+  // Searches that each rate frames one after the other. Threads that no search is left for rate frames to compare with
+  // until the last search ends.
+  template <class Search>
+  void each_search(std::size_t count, Search search) {
+    std::atomic<std::size_t> next = 0, running = count;
+    each_task(threads(), [&](std::size_t /*thread*/) {
+      std::optional<FrameRater> meter;
+      for (std::size_t i = next++; i < count; i = next++) {
+        const AtEnd ended{running};
+        if (!meter) meter.emplace(rater());
+        search(i, *meter);
+      }
+      while (running > 0 && !clock_.has_failed() && !stop_ && rate_next(random_, meter)) {
+      }
+    });
+  }
+  struct AtEnd {
+    std::atomic<std::size_t>& running;
+    explicit AtEnd(std::atomic<std::size_t>& counted) : running(counted) {}
+    AtEnd(const AtEnd&) = delete;
+    AtEnd& operator=(const AtEnd&) = delete;
+    ~AtEnd() { --running; }
+  };
+
+  // Adds the searches' frames in the order of the searches.
   template <class Work>
-  int run_tasks(std::size_t count, Work work) {
+  int run_searches(std::size_t count, Work work) {
     std::vector<BestFrames> found(count, BestFrames(kept(), near_m()));
     std::vector<int> used(count, 0);
-    each_task(count, [&](std::size_t task) {
-      FrameRater meter = rater();
+    each_search(count, [&](std::size_t i, FrameRater& meter) {
       const Objective objective = [&](const std::vector<double>& point) {
         clock_.is_over();
         RatedFrame frame{0.0, point, space_.at(point)};
         frame.value = meter.rate(frame.choice);
-        found[task].add(frame);
-        ++used[task];
+        found[i].add(frame);
+        ++used[i];
         progress_.step();
         return frame.value;
       };
-      work(task, objective);
+      work(i, objective);
     });
-    for (const BestFrames& task : found) best_.add_all(task);
+    for (const BestFrames& frames : found) best_.add_all(frames);
     return std::accumulate(used.begin(), used.end(), 0);
   }
 
@@ -301,7 +331,7 @@ class WorstCaseSearch {
     const auto searches = static_cast<std::size_t>(std::min(evaluations / least, k_global_searches));
     if (searches == 0 || best_.frames().empty()) return;
     const std::vector<RatedFrame> starts = best_.frames();
-    end_stage("global", run_tasks(searches, [&](std::size_t task, const Objective& objective) {
+    end_stage("global", run_searches(searches, [&](std::size_t task, const Objective& objective) {
                 return maximise_globally(starts[task % starts.size()].point, share(evaluations, task, searches),
                                          request_.seed + task, objective, clock_.over());
               }));
@@ -318,7 +348,7 @@ class WorstCaseSearch {
     const std::vector<RatedFrame> starts = best_.frames();
     if (starts.empty() || evaluations < 1) return;
     const std::size_t searches = std::min<std::size_t>(starts.size(), k_local_searches);
-    end_stage("local", run_tasks(searches, [&](std::size_t task, const Objective& objective) {
+    end_stage("local", run_searches(searches, [&](std::size_t task, const Objective& objective) {
                 return climb(starts[task], share(evaluations, task, searches), objective);
               }));
   }
@@ -350,8 +380,7 @@ class WorstCaseSearch {
     frames.resize(std::min(frames.size(), static_cast<std::size_t>(request_.frames)));
     if (frames.empty()) return;
     std::vector<int> used(frames.size(), 0);
-    each_task(frames.size(), [&](std::size_t i) {
-      FrameRater meter = rater();
+    each_search(frames.size(), [&](std::size_t i, FrameRater& meter) {
       move_lights_of(frames[i], share(evaluations, i, frames.size()), request_.seed + i, meter, used[i]);
     });
     for (const RatedFrame& frame : frames) best_.add(frame);
@@ -444,15 +473,14 @@ class WorstCaseSearch {
   // Frames here that are worse than the search's result become the result.
   void compare_with_random() {
     progress_.begin("random frames to compare with");
-    BestFrames found(kept(), near_m());
-    std::vector<double> values(static_cast<std::size_t>(request_.random), 0.0);
-    out_.random.frames = rate_each(
-        request_.random, found, [this](int i) { return random_frame(i, 1); },
-        [this] { return stop_.load() || clock_.has_failed(); }, &values);
+    rate_all(random_, [this] { return stop_.load() || clock_.has_failed(); });
+    out_.random.frames = random_.rated();
     if (out_.random.frames == 0) return;
+    BestFrames found(kept(), near_m());
+    random_.add_to(found);
     out_.random.max = found.frames().front().value;
+    out_.random.mean = random_.sum() / out_.random.frames;
     best_.add_all(found);
-    out_.random.mean = std::accumulate(values.begin(), values.end(), 0.0) / out_.random.frames;
   }
 
   void warn_of_better(double searched) {
@@ -482,6 +510,7 @@ class WorstCaseSearch {
   const std::atomic<bool>& stop_;
   SearchProgress progress_;
   BestFrames best_;
+  FramesInTurn random_;  // to compare with
   WorstCase out_;
   int used_ = 0;
 };
