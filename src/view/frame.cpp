@@ -97,10 +97,11 @@ Projection make_projection(const scene::CameraProjection& projection, Vec2i view
   return {projection.orthographic, -top * aspect, top * aspect, -top, top, projection.near_m, projection.far_m};
 }
 
+constexpr float k_roundoff = 0x1p-24f;
+
 float LightArrays::padded_radius(std::uint32_t light, float roundoffs) const {
   if (roundoffs == 0.0f || is_empty(light)) return radius[light];
-  constexpr float k_rounding = 0x1p-24f;
-  return radius[light] + roundoffs * (k_rounding * reach[light]);
+  return radius[light] + roundoffs * (k_roundoff * reach[light]);
 }
 
 geom::Ball LightArrays::ball(std::uint32_t light, float roundoffs) const {
@@ -122,8 +123,14 @@ geom::OrientedBox LightArrays::box(std::uint32_t light) const {
   return {{x[light], y[light], z[light]}, half_axes[light - boxes.first]};
 }
 
+// A spot's sphere is padded itself: a longer range would move it forward as much as it grows, and pad nothing behind
+// the apex. Its size may exceed the spot's reach, which counts the range alone.
 geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundoffs) const {
-  return is_spot(light) ? geom::bounding_ball(cone(light, roundoffs)) : ball(light, roundoffs);
+  if (!is_spot(light)) return ball(light, roundoffs);
+  geom::Ball around = geom::bounding_ball(cone(light, 0.0f));
+  if (roundoffs == 0.0f || is_empty(light)) return around;
+  around.radius += roundoffs * (k_roundoff * std::max(reach[light], geom::size_of(around.center) + around.radius));
+  return around;
 }
 
 geom::LightVolume LightArrays::volume(std::uint32_t light) const {

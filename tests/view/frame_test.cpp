@@ -199,5 +199,28 @@ TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
   EXPECT_FLOAT_EQ(cone.sin_angle, std::sin(0.5f));
 }
 
+// Steps of a test are off by so many units of 2^-24 of the sphere's own size.
+TEST(Lights, of_spots_have_a_sphere_that_is_padded_on_all_sides) {
+  SplitMix64 random(3);
+  for (int i = 0; i < 3000; ++i) {
+    scene::WorldLight spot = point({random.between(-9, 9), random.between(-9, 9), random.between(-9, 9)}, 5.0);
+    spot.type = scene::LightType::spot;
+    spot.direction = glm::normalize(Vec3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
+    spot.outer_cone_rad = i % 2 == 0 ? random.between(0.001, 1.57) : random.between(0.75, 0.82);
+    const LightArrays arrays = lights_in(frame_with({spot}), {});
+    const geom::Ball plain = arrays.bounding_ball(0, 0.0f);
+    for (const float roundoffs : {2.0f, 10.0f, 34.0f}) {
+      const geom::Ball padded = arrays.bounding_ball(0, roundoffs);
+      const Vec3d middle(padded.center), size = glm::abs(middle);
+      const double own = size.x + size.y + size.z + plain.radius, pad = 0x1p-24 * (roundoffs - 1.0) * own;
+      const Vec3d behind = spot.position - pad * spot.direction,
+                  ahead = spot.position + (spot.range_m + pad) * spot.direction;
+      EXPECT_LE(glm::length(behind - middle), padded.radius) << spot.outer_cone_rad << ", " << roundoffs;
+      EXPECT_LE(glm::length(ahead - middle), padded.radius) << spot.outer_cone_rad << ", " << roundoffs;
+      EXPECT_LE(padded.radius - plain.radius, 0x1p-24 * (roundoffs + 2.0) * (own + 10.0));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::view

@@ -103,7 +103,7 @@ Ball bounding_ball(const SphericalCone& cone) {
   const float along = narrow ? cone.range / (2.0f * cone.cos_angle) : cone.range * cone.cos_angle;
   const float radius = narrow ? along : cone.range * cone.sin_angle;
   // `along` is off by 3 unit roundoffs of the range (a rounded cosine, a product, a quotient), the centre by 3 more and
-  // a rounded axis by 1, the radius by 3: 11 of 16.
+  // a rounded axis by 1, the radius by 3: 11 of 16. Callers pad the result for their own steps.
   constexpr float k_slack = 0x1p-20f;
   return {cone.apex + along * cone.axis, radius + k_slack * (size_of(cone.apex) + cone.range)};
 }
