@@ -75,6 +75,7 @@ void leave_surroundings_alone(const Subject& subject, Findings& findings) {
   const std::vector<SubjectFrame> frames = frames_for(subject, 1);
   const os::Surroundings before;
   const os::CaughtOutput printed;
+  for (const std::string& change : subject.changes_on_loading) findings.fault("changes " + change + " as it is loaded");
   for (const SubjectFrame& frame : frames) lists_of(subject, frame);
   for (const std::string& change : before.changes()) findings.fault("changes " + change);
   if (const std::string text = printed.text(); !text.empty())

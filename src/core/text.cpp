@@ -1,6 +1,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -66,14 +67,17 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 
 }  // namespace
 
-// libc++ has no std::from_chars for doubles before version 20. The program never leaves the locale C.
+// libc++ has no std::from_chars for doubles before version 20. The program never leaves the locale C, and plug-ins are
+// kept from it (plugin/plugins.cpp).
 std::optional<double> decimal_number(std::string_view text) {
   if (text.empty() || text.front() == '+' || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
     return std::nullopt;
   const std::string whole(text);
   char* end = nullptr;
+  errno = 0;
   const double value = std::strtod(whole.c_str(), &end);
-  if (end != whole.c_str() + whole.size() || !std::isfinite(value)) return std::nullopt;
+  const bool is_too_small = errno == ERANGE && value == 0.0;
+  if (end != whole.c_str() + whole.size() || !std::isfinite(value) || is_too_small) return std::nullopt;
   return value;
 }
 

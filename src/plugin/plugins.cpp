@@ -1,6 +1,7 @@
 #include "plugin/plugins.h"
 
 #include <algorithm>
+#include <clocale>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -13,6 +14,7 @@
 #include "os/call_notes.h"
 #include "os/environment.h"
 #include "os/shared_library.h"
+#include "os/surroundings.h"
 #include "plugin/plugin_call.h"
 #include "plugin/plugin_method.h"
 
@@ -67,7 +69,21 @@ os::SharedLibrary loaded_library(const fs::path& file) {
   return *library;
 }
 
+// Numbers are read and written as in the locale C, whatever a library sets as it is loaded.
+class KeptLocale {
+ public:
+  KeptLocale() = default;
+  KeptLocale(const KeptLocale&) = delete;
+  KeptLocale& operator=(const KeptLocale&) = delete;
+  ~KeptLocale() { std::setlocale(LC_ALL, name_.c_str()); }
+
+ private:
+  std::string name_ = std::setlocale(LC_ALL, nullptr);
+};
+
 PluginFacts facts_of(const fs::path& file, const std::string& id) {
+  const KeptLocale kept;
+  const os::Surroundings before;
   // Libraries that are built with -ffast-math change the mode of numbers as they are loaded; it is set back.
   CallEnd end;
   return called({os::note_code(file.filename().string()), 0}, os::CallStep::load, -1, end, [&] {
@@ -78,7 +94,9 @@ PluginFacts facts_of(const fs::path& file, const std::string& id) {
       throw Error(file.string(), "", std::string("is no plug-in: it exports no function ") + k_entry + "()");
     const clusterbench_plugin* given = nullptr;
     if (!returned(end, [&] { given = entry(&host()); })) refuse_exception(file, std::string(k_entry) + "()", end);
-    return read_plugin(file.string(), given, id);
+    PluginFacts facts = read_plugin(file.string(), given, id);
+    facts.changes_on_loading = before.changes();
+    return facts;
   });
 }
 

@@ -21,6 +21,7 @@ struct PluginFacts {
   std::string id, name, version;
   std::uint32_t minor = 0;  // of the interface that it was made for
   std::vector<MethodFacts> methods;
+  std::vector<std::string> changes_on_loading;  // of what the process has once: "the locale, to C.UTF-8"
 };
 
 // `file`: for messages. `id`: in place of its own in the names of methods; "" for its own. Throws Error for a plug-in

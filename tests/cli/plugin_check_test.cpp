@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <nlohmann/json.hpp>
 
 #include "cli/plugin_files.h"
 #include "cli/tool.h"
+#include "plugin/plugins.h"
 
 namespace clusterbench::test {
 namespace {
@@ -104,6 +106,17 @@ TEST(PluginCheck, finds_what_no_plugin_may_do) {
     EXPECT_TRUE(mentions(check["tests"][0]["reasons"].dump(), one.reason)) << one.method << ": " << check["tests"][0];
     EXPECT_EQ(outcome.code, one.verdict == "passed" || one.verdict == "skipped" ? 0 : 1) << one.method;
   }
+}
+
+TEST(PluginCheck, finds_what_a_library_changes_as_it_is_loaded_and_nobody_keeps_its_locale) {
+  const std::string file = plugin_file("translating");
+  const Outcome outcome = tool("plugin check " + file + k_quick + "--test surroundings");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_TRUE(mentions(outcome.out, "changes the locale, to C.UTF-8 as it is loaded")) << outcome.out;
+  const plugin::PluginFacts facts = plugin::describe_plugin(file);
+  EXPECT_EQ(facts.changes_on_loading, std::vector<std::string>{"the locale, to C.UTF-8"});
+  EXPECT_STREQ(std::setlocale(LC_ALL, nullptr), "C");
+  EXPECT_EQ(plugin::describe_plugin(plugin_file("example")).changes_on_loading, std::vector<std::string>{});
 }
 
 TEST(PluginCheck, every_test_has_a_plugin_that_fails_it) {

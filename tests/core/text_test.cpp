@@ -69,8 +69,10 @@ TEST(DecimalNumber, is_all_of_a_text_or_none) {
   EXPECT_EQ(decimal_number(".5"), 0.5);
   EXPECT_EQ(decimal_number("0.1"), 0.1);
   EXPECT_EQ(decimal_number("1e308"), 1e308);
+  EXPECT_EQ(decimal_number("5e-324"), 5e-324);
+  EXPECT_EQ(decimal_number("0e-400"), 0.0);
   for (const char* text :
-       {"", " 1", "1 ", "+1", "1e", "e5", "-", ".", "1.2.3", "0x10", "inf", "nan", "1e309", "1,5", "1f"})
+       {"", " 1", "1 ", "+1", "1e", "e5", "-", ".", "1.2.3", "0x10", "inf", "nan", "1e309", "1e-400", "1,5", "1f"})
     EXPECT_FALSE(decimal_number(text)) << text;
   EXPECT_EQ(decimal_number(std::string_view("12345").substr(0, 2)), 12.0) << "no longer than the text is";
 }
