@@ -267,6 +267,7 @@ class Run {
       run_apart(group, fault.message(), true, out);
     } catch (const gpu::DeviceError& error) {
       gpu::close_device();
+      if (stop_) return;  // it may have been left at work
       take_back_progress(group);
       run_apart(group, error.message(), false, out);
     } catch (const assign::MethodError& error) {

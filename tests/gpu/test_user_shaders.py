@@ -67,6 +67,7 @@ class Examples(unittest.TestCase):
         self.assertEqual(mine["occupancy"]["lights_per_cell"]["max"], 100)
         self.assertGreater(mine["error"]["false_negatives"], 0)
         self.assertIn("lost_pairs", [warning["kind"] for warning in mine["warnings"]])
+        self.assertRegex(done.stderr, r"lost [0-9]+ of [0-9]+ true pairs.*it fails nothing, since the shader's JSON has no \"conservative\": true")
 
     def test_a_key_a_flag_and_the_other_commands_take_them(self):
         with Folder() as folder:

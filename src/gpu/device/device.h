@@ -149,6 +149,8 @@ class Commands {
   std::span<const std::uint32_t> downloaded(std::uint32_t n) const;
 
  private:
+  void wait_for_end();
+
   void bind(Kernel kernel, const Arguments& arguments);
 
   Device::Impl& device_;

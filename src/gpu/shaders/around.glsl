@@ -1,6 +1,6 @@
 // The box and the ball around a cell between two sides (slopes, or metres in an orthographic view), two others below and
-// above, and two depths. Boxes are those of geom's box_around(), bit for bit and on every device: what single precision
-// does not give so is computed in integers.
+// above, and two depths. Boxes are those of geom's box_around(), bit for bit and on every device, but for products below
+// the least normal number, which are rounded outward: what single precision does not give so is computed in integers.
 
 const uint k_infinity = 0x7f800000u, k_largest = 0x7f7fffffu, k_sign = 0x80000000u;
 // Far below the square of any length of the domain, and far above numbers that a device may take for 0.

@@ -93,8 +93,9 @@ float size_of(vec3 v) {
 // In unit roundoffs of the vector V from apex to centre: V is off by 1, a rounded axis by 1, the sum of products by 3, so
 // `along` by 5; the vector across by these, the product with the axis and the difference: 8; the sum of its squares by 4
 // and the product with cos^2 by 2 of themselves, so by 3 after the root. sin a * along adds 1, the sum with the reach 1,
-// its square half of one: at most 8 + 3 + 5 + 3 = 19. frame.cone_slack is 32 of them; where the device may round either
-// way, each step counts twice, and it is 64.
+// its square half of one: at most 8 + 3 + 5 + 3 = 19. The given apex, cosine and sine are rounded, and so is the sum that
+// makes the reach: 4 more. frame.cone_slack is 32 of them; where the device may round either way, each step counts twice,
+// and it is 64.
 bool cone_touches_ball(uint spot, vec4 ball) {
   if (ball.w > 1e18) return true;
   vec4 apex = cones[3 * spot], axis = cones[3 * spot + 1];  // with the range; with cos a

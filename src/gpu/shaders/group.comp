@@ -6,9 +6,10 @@
 
 // One group per block of 4 x 4 x 4 cells, an invocation for each. 64 lights at a time are tested against the box around
 // the block, an invocation for each light; those that touch it stay, and each invocation tests them against its cell. The
-// box holds the cells' boxes and rounding is monotonic, so no light that touches a cell is left out: the lists are those
-// of all lights against all cells. With k_refines lights that touch the box around a cell are then tested against the cell
-// itself; in an orthographic view the box is the cell.
+// box holds the cells' boxes. Where the device rounds to nearest that is monotonic, so that no light which passes the
+// cell's test is left out, and the lists are those of all lights against all cells; elsewhere the padding covers both
+// tests. With k_refines lights that touch the box around a cell are then tested against the cell itself; in an orthographic
+// view the box is the cell.
 const uint k_refines = 4;  // a bit of MODE, beside k_count or k_fill
 
 shared vec3 block_lo[64], block_hi[64];

@@ -2,9 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
 
-// One group per light, which visits only the slices, rows and columns that the light can reach. Rounding is monotonic and
-// squares are not negative, so a gap that alone, or with one other, exceeds the reach excludes only what
-// ball_touches_box() excludes: the masks are those of all pairs. They must have been cleared.
+// One group per light, which visits only the slices, rows and columns that the light can reach. Rounding to nearest is
+// monotonic (where the device rounds otherwise the padding covers these steps, too) and squares are not negative, so a gap
+// that alone, or with one other, exceeds the reach excludes only what ball_touches_box() excludes: the masks are those of
+// all pairs. They must have been cleared.
 shared uint first_column, last_column, first_row, last_row;
 
 // The square of the gap between a value and an interval, added to another one.

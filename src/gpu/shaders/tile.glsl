@@ -65,7 +65,7 @@ void write_around(uint tile, Around around) {
 }
 
 // Where the device may round either way: the parts, too, that the processor may find. Both are off by less than 2^-20 of
-// the distance from the range's begin: here a difference, the range's length, its inverse and a product are, by up to
+// the distance from the range's begin: here a difference, the range's length, its inverse and two products are, by up to
 // 2^-23 each, and there by half of that. Where the range is so short that numbers may be flushed to zero, all parts.
 const float k_wider = 1.0 + 1.0 / 524288.0, k_narrower = 1.0 - 1.0 / 524288.0, k_short_range = 1.0e36;
 

@@ -141,10 +141,7 @@ class ShaderAssigner final : public assign::StructureAssigner {
     const std::vector<layout::ListPart> parts = list_parts(values);
     run_frame(parts);
     decode(parts, input.lights, out);
-    tests_ =
-        record().tests
-            ? static_cast<std::uint64_t>(std::max(0.0, number_of_formula(*record().tests, values.number(), "/tests")))
-            : 0;
+    tests_ = record().tests ? amount_of(result::Json(*record().tests), values.number(), "/tests") : 0;
   }
 
   // Sizes, then room. All are looked at before any memory is taken.

@@ -1,14 +1,19 @@
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "core/error.h"
 #include "gpu/vulkan/device_impl.h"
 #include "gpu/vulkan/program_impl.h"
+#include "os/stop_signals.h"
 
 namespace clusterbench::gpu {
 namespace {
 
-constexpr std::uint64_t k_longest_run_ns = 600'000'000'000;
+constexpr std::uint64_t k_wait_ns = 50'000'000;
+constexpr std::chrono::seconds k_longest_run{600}, k_longest_after_signal{2};
 constexpr std::uint64_t k_groups_in_a_row = 32768;  // devices take at least 65,535
 
 }  // namespace
@@ -151,9 +156,7 @@ void Commands::run() {
   submit.pCommandBuffers = &device_.commands;
   const FrameCapture::Scope capture(device_.capture, new_shaders_);
   check(vkQueueSubmit(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit");
-  const VkResult waited = vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns);
-  device_.is_stuck = waited == VK_TIMEOUT;
-  check(waited, "vkWaitForFences");
+  wait_for_end();
   check(vkResetFences(device_.device, 1, &device_.fence), "vkResetFences");
   for (Memory& memory : buffers_.outgrown) device_.free(memory);
   buffers_.outgrown.clear();
@@ -165,6 +168,25 @@ void Commands::run() {
   if (objections().count > 0)
     throw Error("", "device", "the validation layer objects: " + objections().first, ExitCode::internal);
   turn_.unlock();
+}
+
+// A step cannot be ended. Once a signal has stopped the program, one that goes on for long is left behind.
+void Commands::wait_for_end() {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point began = Clock::now();
+  std::optional<Clock::time_point> stopped;
+  VkResult waited = VK_TIMEOUT;
+  while (waited == VK_TIMEOUT && Clock::now() - began < k_longest_run) {
+    waited = vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_wait_ns);
+    if (os::stop_signal() == 0 || waited != VK_TIMEOUT) continue;
+    if (!stopped) stopped = Clock::now();
+    if (Clock::now() - *stopped < k_longest_after_signal) continue;
+    device_.is_stuck = true;
+    throw DeviceError(device_.facts.name + " was still at work " + std::to_string(k_longest_after_signal.count()) +
+                      " s after the signal that stopped this program");
+  }
+  device_.is_stuck = waited == VK_TIMEOUT;
+  check(waited, "vkWaitForFences");
 }
 
 double Commands::ns_between(std::uint32_t first, std::uint32_t last) const {
