@@ -175,6 +175,42 @@ TEST(DeviceCases, of_software_rank_nothing) {
   EXPECT_EQ(text.find("fastest, in"), std::string::npos) << text;
 }
 
+run::CaseResult on_device(const run::Result& result, const char* method, double run_ns) {
+  run::CaseResult out = case_by_hand(method, method, 1.0);
+  out.timing.reset();
+  out.on_device = true;
+  out.device = result.cases[2].device;
+  measure::TimeStats& time = out.device->cold->run_ns;
+  time.median = run_ns;
+  time.ci95 = {0.9 * run_ns, 1.1 * run_ns};
+  return out;
+}
+
+TEST(DeviceCases, that_are_not_told_from_the_fastest_are_named_before_the_first_that_is_slower) {
+  run::Result result = with_device(2000.0);
+  for (const auto& [method, run_ns] :
+       {std::pair{"gpu-group", 2100.0}, std::pair{"gpu-mask", 9000.0}, std::pair{"gpu-refined", 2150.0}}) {
+    result.cases.push_back(on_device(result, method, run_ns));
+    result.planned_ids.emplace_back(method);
+  }
+  const std::string text = conclusion_of(result);
+  EXPECT_NE(text.find("frustum 64px/gpu-cells/packed makes its lists fastest"), std::string::npos) << text;
+  EXPECT_NE(text.find("; frustum 64px/gpu-group/packed, frustum 64px/gpu-refined/packed are not known to be slower; "
+                      "frustum 64px/gpu-mask/packed takes 4.50 times as long"),
+            std::string::npos)
+      << text;
+}
+
+TEST(DeviceCases, with_lights_of_visible_surfaces_hide_no_reason_of_the_others) {
+  run::Result result = with_device(2000.0);
+  result.cases.push_back(on_device(result, "gpu-tiled", 2100.0));
+  result.planned_ids.emplace_back("gpu-tiled");
+  result.cases.erase(result.cases.begin(), result.cases.begin() + 2);
+  const std::string text = conclusion_of(result);
+  EXPECT_NE(text.find("nothing to take of methods that run on the processor"), std::string::npos) << text;
+  EXPECT_EQ(text.find("these methods light visible surfaces"), std::string::npos) << text;
+}
+
 TEST(DeviceCases, alone_leave_nothing_to_take_on_the_processor) {
   run::Result result = with_device(2000.0);
   result.cases.erase(result.cases.begin(), result.cases.begin() + 2);
@@ -199,6 +235,25 @@ TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
                      "new result on Other card with cold caches"))
       << comparison["warnings"];
   EXPECT_EQ(comparison["cases"][0]["hint"], "none") << "times of the processor are compared all the same";
+}
+
+// An interval between few launches is wide for its error: Student's t has its tails, and 2 degrees of freedom are
+// not 30.
+TEST(DeviceCases, with_intervals_between_launches_are_compared_by_as_many_degrees_of_freedom) {
+  const auto p_of = [](std::uint64_t launches) {
+    run::Result base = with_device(2000.0), next = with_device(2060.0);  // 3 % more, each with an interval of +-1 %
+    for (run::Result* one : {&base, &next}) {
+      one->cases[2].device->launches = static_cast<int>(launches);
+      measure::TimeStats& time = one->cases[2].device->cold->run_ns;
+      time.ci95 = {0.99 * time.median, 1.01 * time.median};
+    }
+    const Json comparison = compared(json_of(base), json_of(next), 0.01, {.gates_separate = true});
+    return comparison["cases"][2]["p_corrected"].get<double>() / comparison["summary"]["methods_timed"].get<double>();
+  };
+  // Two-sided tails of ln(1.03) / (sqrt(2) * 0.01 / quantile), integrated elsewhere: t = 8.993, 5.803 and 4.096.
+  EXPECT_NEAR(p_of(3), 0.012141, 1e-5);
+  EXPECT_NEAR(p_of(5), 0.0043866, 1e-5);
+  EXPECT_NEAR(p_of(1), 0.00029276, 1e-6);
 }
 
 TEST(DeviceCases, keep_their_device_in_a_merged_result_unless_there_are_several) {

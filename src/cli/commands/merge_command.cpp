@@ -79,7 +79,9 @@ ExitCode merge(const MergeFlags& flags) {
   if (report::is_any_shard(parts)) return merge_shards(flags, std::move(parts));
   if (!flags.baseline.empty())
     throw Error("", "--baseline", "goes with shards (run --shard) alone, and these are whole results");
-  write_output(flags.output, result::to_json(report::merged(std::move(parts))));
+  const result::Result result = report::merged(std::move(parts));
+  write_output(flags.output, result::to_json(result));
+  std::cerr << report::warnings_text(result) << report::timing_warnings(result);
   return ExitCode::ok;
 }
 

@@ -13,11 +13,12 @@ namespace clusterbench::report {
 // nullptr if it is missing or null.
 const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const std::string& pointer);
 
+// The value of a result's configuration; of a merged one that of all its parts, as a list where they differ. Null where
+// there is none.
+nlohmann::ordered_json setting_of(const nlohmann::ordered_json& config, const std::string& pointer);
+
 // None if it is not a number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);
-
-// JSON has no infinity and no NaN.
-nlohmann::ordered_json number_or_null(double value);
 
 // Equal in all recorded values.
 template <class Record>

@@ -1,6 +1,7 @@
 #include "report/choosing/device_conclusion.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/text.h"
 #include "report/cases/columns.h"
@@ -17,12 +18,16 @@ const result::Interval& interval_of(const WeighedCase& weighed) {
   return weighed.result_case->device->run_ns.ci95;
 }
 
-// The first that is slower than the fastest for certain: their intervals do not overlap.
-const WeighedCase* slower_of(const std::vector<WeighedCase>& timed) {
-  const double high = result::Pair(interval_of(timed.front()))[1];
-  for (const WeighedCase& weighed : timed)
-    if (result::Pair(interval_of(weighed))[0] > high) return &weighed;
-  return nullptr;
+// Slower than the fastest for certain: their intervals do not overlap.
+bool is_slower(const WeighedCase& weighed, const WeighedCase& fastest) {
+  return result::Pair(interval_of(weighed))[0] > result::Pair(interval_of(fastest))[1];
+}
+
+std::string alike_text(const std::vector<std::string>& alike) {
+  constexpr std::size_t k_most = 3;
+  if (alike.size() == 1) return alike.front() + " is";
+  if (alike.size() <= k_most) return joined(alike) + " are";
+  return joined(std::span(alike).first(2)) + " and " + std::to_string(alike.size() - 2) + " more are";
 }
 
 std::string fastest_text(const std::vector<WeighedCase>& timed) {
@@ -30,11 +35,18 @@ std::string fastest_text(const std::vector<WeighedCase>& timed) {
   std::string out = case_title(*fastest.result_case) + " makes its lists fastest, in " + ns_text(fastest.device_ns()) +
                     " by its clock";
   if (const auto ratio = figure_of(*fastest.result_case, "device_floor"))
-    out += text(", %.1f times what as many steps take that only write as much", *ratio);
-  if (const WeighedCase* slower = slower_of(timed))
-    return out + "; " + case_title(*slower->result_case) + " takes " +
+    out += text(", %.1f times what as many steps take that do nothing but write as many bytes", *ratio);
+  const WeighedCase* slower = nullptr;  // the first for certain
+  std::vector<std::string> alike;
+  for (const WeighedCase& weighed : std::span(timed).subspan(1)) {
+    if (!is_slower(weighed, fastest)) alike.push_back(case_title(*weighed.result_case));
+    if (slower == nullptr && is_slower(weighed, fastest)) slower = &weighed;
+  }
+  if (!alike.empty()) out += "; " + alike_text(alike) + " not known to be slower";
+  if (slower != nullptr)
+    out += "; " + case_title(*slower->result_case) + " takes " +
            text("%.2f times as long", slower->device_ns() / fastest.device_ns());
-  return out + (timed.size() > 1 ? "; the others are not known to be slower" : "");
+  return out;
 }
 
 }  // namespace

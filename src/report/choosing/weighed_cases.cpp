@@ -70,14 +70,14 @@ std::vector<SceneView> scene_views(const result::Result& result, const Json& con
     WeighedCase weighed = weigh(result_case, config, unseen);
     weighed.is_on_front = front.contains(result_case.id);
     // Drawn lights have no lists whose size could be an advantage.
-    if (without_samples.contains(result_case.id) || (draws_lights(result_case) && !weighed.is_modelled)) {
+    const bool is_on_device = runs_on_device(result_case);  // where no cost decides
+    const bool has_no_cost =
+        without_samples.contains(result_case.id) || (draws_lights(result_case) && !weighed.is_modelled);
+    if (has_no_cost && !is_on_device) {
       ++view->unsampled;
       continue;
     }
-    (runs_on_device(result_case)   ? view->on_device
-     : samples_search(result_case) ? view->searched
-                                   : view->sound)
-        .push_back(weighed);
+    (is_on_device ? view->on_device : samples_search(result_case) ? view->searched : view->sound).push_back(weighed);
   }
   for (SceneView& view : views) std::ranges::stable_sort(view.on_device, {}, &WeighedCase::device_ns);
   for (SceneView& view : views)

@@ -30,8 +30,12 @@ std::optional<std::string> caches_of_times(const Result& result) {
 
 // The fields that figures depend on, at their place in a result.
 Json facts_of(const Result& result) {
-  return {
-      {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
+  Json timing = Json::object();
+  for (const char* key : {"frames", "sweep_mib"})
+    timing[key] = setting_of(result.config, std::string("/timing/") + key);
+  return {{"machine", result::to_json(result.machine)},
+          {"tool", result::to_json(result.tool)},
+          {"config", {{"timing", timing}}}};
 }
 
 std::vector<std::string> texts_of(const std::vector<OtherSetting>& settings) {

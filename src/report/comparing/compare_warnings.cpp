@@ -53,19 +53,28 @@ std::pair<std::vector<std::string>, std::vector<std::string>> on_device_and_othe
   return {on_device, others};
 }
 
-// Whose times the result has, with the caches of these times.
-std::vector<std::string> devices_of(const Result& result) {
-  std::set<std::string> devices;
-  for (const result::Case& one : result.cases)
-    if (one.device)
-      devices.insert(shown(one.device->device) +
-                     (one.device->caches ? " with " + *one.device->caches + " caches" : ""));
-  return {devices.begin(), devices.end()};
+// With the caches of its times.
+std::string device_name(const result::Case& one) {
+  return shown(one.device->device) + (one.device->caches ? " with " + *one.device->caches + " caches" : "");
 }
 
-bool have_common(const std::vector<std::string>& some, const std::vector<std::string>& others) {
-  return std::ranges::any_of(some,
-                             [&](const std::string& one) { return std::ranges::find(others, one) != others.end(); });
+std::string joined_names(const std::set<std::string>& names) {
+  return joined(std::vector<std::string>(names.begin(), names.end()));
+}
+
+// Of cases that both have, with their caches: on which devices the base ran, and on which others the new result did.
+std::pair<std::set<std::string>, std::set<std::string>> other_devices(const Result& base, const Result& next) {
+  std::map<std::string, std::string> of_base;
+  for (const result::Case& one : base.cases)
+    if (one.device) of_base[one.id] = device_name(one);
+  std::pair<std::set<std::string>, std::set<std::string>> out;
+  for (const result::Case& one : next.cases) {
+    const auto found = of_base.find(one.id);
+    if (!one.device || found == of_base.end() || found->second == device_name(one)) continue;
+    out.first.insert(found->second);
+    out.second.insert(device_name(one));
+  }
+  return out;
 }
 
 }  // namespace
@@ -86,10 +95,9 @@ std::vector<std::string> warnings_of(const Result& base, const Result& next, con
     if (!prices.empty())
       warnings.push_back(joined(prices) + ", another setting: modelled costs follow it and are not compared");
   }
-  const std::vector<std::string> base_devices = devices_of(base), next_devices = devices_of(next);
-  if (!base_devices.empty() && !next_devices.empty() && !have_common(base_devices, next_devices))
-    warnings.push_back("times of methods on a device are not compared: the base ran on " + joined(base_devices) +
-                       ", the new result on " + joined(next_devices));
+  if (const auto [before, now] = other_devices(base, next); !before.empty())
+    warnings.push_back("times of methods on a device are not compared: the base ran on " + joined_names(before) +
+                       ", the new result on " + joined_names(now));
   const std::vector<std::string> only_in_base = without_renamed(comparison.only_in_base, comparison.renamed),
                                  new_names = without_renamed(comparison.only_in_new, comparison.renamed);
   const auto [on_device, only_in_new] =

@@ -49,7 +49,8 @@ measure::MedianTime median_time(const Case& result_case) {
   const result::Time& time = *compared_time(result_case);
   const double low = time.ci95[0], high = time.ci95[1];
   if (!std::isfinite(low) || !std::isfinite(high)) return {time.median, {}, 0, 1};
-  const std::uint64_t launches = result_case.timing ? result_case.timing->launches.value_or(1) : 1;
+  const std::uint64_t launches =
+      (result_case.timing ? result_case.timing->launches : result_case.device->launches).value_or(1);
   return {time.median, {low, high}, time.samples.size(), static_cast<int>(launches)};
 }
 

@@ -30,6 +30,13 @@ result::Tool without_target(result::Tool tool) {
   return tool;
 }
 
+// Of cold times. Null without them, and in older results.
+Json swept_of(const result::Result& result) {
+  const bool is_cold = std::ranges::any_of(
+      result.cases, [](const result::Case& one) { return one.timing && one.timing->caches == "cold"; });
+  return is_cold ? setting_of(result.config, "/timing/sweep_mib") : Json();
+}
+
 void check_origin(const NamedPart& first, const NamedPart& next) {
   for (const char* key : k_in_common)
     if (first.result.config.value(key, Json()) != next.result.config.value(key, Json()))
@@ -38,6 +45,11 @@ void check_origin(const NamedPart& first, const NamedPart& next) {
   if (!are_same(without_target(first.result.tool), without_target(next.result.tool)))
     throw Error(next.file, "/tool",
                 "is not that of " + first.file + ": times and instructions of both have no place in one result");
+  const Json swept = swept_of(first.result), next_swept = swept_of(next.result);
+  if (!swept.is_null() && !next_swept.is_null() && swept != next_swept)
+    throw Error(next.file, "/config/timing/sweep_mib",
+                "is " + next_swept.dump() + ", and that of " + first.file + " is " + swept.dump() +
+                    ": cold times of both have no place in one result");
 }
 
 // Appends items to `all` that it does not contain yet. `key` identifies an item, `key_name` is its name in messages,
