@@ -150,8 +150,8 @@ class RuleParser {
     }
     if (rule_.is_relative && figure->rests_on_times())
       refuse("holds times of two runs against each other, and two runs of one program can differ several-fold; " +
-             std::string(is_of_device() ? "set a budget in its own unit, as 'device_us > 50', or see the hints of "
-                                          "clusterbench compare"
+             std::string(is_of_device() ? "set a budget in its own unit, as 'device_us > 50', or gate on "
+                                          "`clusterbench compare --gate-separate`"
                                         : "hold instructions against the baseline (--count), or measure both programs "
                                           "side by side (--baseline-binary)"));
   }

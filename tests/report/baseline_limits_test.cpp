@@ -335,6 +335,22 @@ TEST(LightGate, fails_where_a_level_or_a_camera_of_the_baseline_is_missing) {
       << light_findings(other_viewport, gate).broken[0];
 }
 
+TEST(LightGate, fails_where_a_case_of_the_baseline_cannot_be_measured_any_more) {
+  const Result base = baseline_record();
+  Result next = baseline_record();
+  next.cases.erase(next.cases.begin());
+  const auto broken = [&](const std::string& filter = "") {
+    return light_findings(next, {.base = &base, .base_name = "base.json", .filter = filter}).broken;
+  };
+  EXPECT_EQ(broken(), Lines{}) << "a configuration may have fewer methods";
+  next.skipped.push_back({"hall/walk/frustum 64px/brute", "another method", {}});
+  EXPECT_EQ(broken(), Lines{});
+  next.skipped.push_back({"hall/walk/frustum 64px/brute-force", "no driver", {}});
+  EXPECT_EQ(broken(), (Lines{"hall/walk/frustum 64px/brute-force: was measured in base.json (1 case) and not here: no "
+                             "driver"}));
+  EXPECT_EQ(broken("/aabb/"), Lines{}) << "what is filtered out is not missed";
+}
+
 TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {
   Result result = with_attic(baseline_record());
   for (std::size_t i = 0; i < 2; ++i) {

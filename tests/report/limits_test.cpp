@@ -12,6 +12,7 @@
 #include "records.h"
 #include "report/exports/metrics.h"
 #include "report/gates/baseline_cases.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -115,6 +116,19 @@ TEST(Limits, what_no_case_has_fails) {
 }
 
 // Lists that lack lights are short; their overshade would pass any budget.
+// However many lights a cell has, such lists are no longer than their room.
+TEST(Limits, of_the_longest_list_are_not_held_by_lists_that_a_method_has_cut) {
+  Json cut = case_with_budget_figures();  // whose lists are no longer than 64, and 3 pairs are dropped
+  EXPECT_EQ(findings_of("longest > 64", cut).broken, Lines{}) << "counted before a storage drops any";
+  cut["storage"] = run::k_own_structure;
+  EXPECT_EQ(findings_of("longest > 64", cut).broken,
+            (Lines{"'longest > 64' could not be checked for hall/walk/frustum/bounds/packed: its lists end at 64 since "
+                   "the method itself dropped 3 pairs; hold dropped, and see `clusterbench size`"}));
+  EXPECT_EQ(findings_of("longest > 63", cut).broken.size(), 1u);
+  cut["buffers"]["overflow"]["dropped_pairs"] = 0;
+  EXPECT_EQ(findings_of("longest > 64", cut).broken, Lines{});
+}
+
 TEST(Limits, the_overshade_of_samples_that_lack_lights_is_none) {
   Json lacking = case_with_budget_figures();
   lacking["samples"]["opaque"] = {{"missed", 412}, {"needed", 1000}, {"overshade", nullptr}, {"unlit", 0.412}};

@@ -95,6 +95,7 @@ std::string ignored_keys(const config::Config& config) {
   add(config.details.has_value(), "details");
   add(config.stability.has_value(), "stability");
   add(config.reading.has_value(), "reading");
+  add(!config.device.empty(), "device");
   add(!config.shadow_culls.empty(), "shadow_cull");
   add(config.shared_frusta.has_value(), "shadow_frusta");
   return keys;
@@ -126,6 +127,7 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   return config::changed(config, {{"details", nullptr},
                                   {"stability", nullptr},
                                   {"reading", nullptr},
+                                  {"device", nullptr},
                                   {"shadow_cull", nullptr},
                                   {"shadow_frusta", nullptr}});
 }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/gates.h"
 #include "cli/options/shard_choice.h"
 #include "cli/output/output.h"
 #include "cli/processes/handover.h"
@@ -123,6 +124,7 @@ std::optional<ExitCode> run_part(const RunFlags& flags) {
   if (shard) plan = sharded_plan(flags, config, std::move(plan), *shard);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   if (flags.dry_run) {
+    const Gates refused_as_by_a_run(config.limits, flags.filter);
     print_plan(flags, config, std::move(plan));
     return ExitCode::ok;
   }

@@ -66,11 +66,11 @@ void print_plan(const RunFlags& flags, const config::Config& config, run::Plan p
       std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
   print_skipped(plan.skipped);
   const std::size_t left = plan.case_count();
+  const std::string duration = duration_text(run::estimated_s(config, plan));
   std::cerr << number_of(left, "case")
             << (flags.resume ? " left of " + std::to_string(total) + ", " + std::to_string(total - left) + " done"
                              : std::string())
-            << ", " << plan.skipped.size() << " skipped; takes " << duration_text(run::estimated_s(config, plan))
-            << "\n";
+            << ", " << plan.skipped.size() << " skipped; takes " << duration << "\n";
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
     for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);

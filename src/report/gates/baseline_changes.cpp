@@ -26,7 +26,8 @@ constexpr const char* k_instructions = "instructions";  // reported if the same 
 
 // Equal for all cases of a camera and viewport.
 constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_seen.mean", "lights_in_view"};
-constexpr const char* k_of_case[] = {"index_entries", "bytes", "longest", "pairs.mean", k_instructions};
+constexpr const char* k_of_case[] = {"index_entries", "bytes",   "longest",     "pairs.mean",
+                                     "missed",        "dropped", k_instructions};
 
 // With the viewport if others have the same name, which does not contain it.
 std::string names_of(const std::vector<const Case*>& cases, const std::vector<const Case*>& others) {
@@ -53,8 +54,7 @@ class Changes {
     const std::vector<const Case*>& gone = baseline_.gone_cases();
     const bool is_all_there = not_in_base_.empty() && gone.empty() && unknown_.empty();
     if (views_.empty() && cases_.empty() && is_all_there)
-      return begin + " none in " + number_of(unchanged_, "case") + " (lights, " +
-             joined(Lines(std::begin(k_of_case), std::end(k_of_case))) + ")\n";
+      return begin + " none in " + number_of(unchanged_, "case") + " (" + joined(compared()) + ")\n";
     Lines lines = views_;
     lines.insert(lines.end(), cases_.begin(), cases_.end());
     if (unchanged_ > 0) lines.push_back("none in " + number_of(unchanged_, cases_.empty() ? "case" : "other case"));
@@ -67,6 +67,13 @@ class Changes {
   }
 
  private:
+  Lines compared() const {
+    Lines names{"lights"};
+    for (const char* figure : k_of_case)
+      if (figure != std::string_view(k_instructions) || has_instructions_) names.emplace_back(figure);
+    return names;
+  }
+
   void add(const Case& before, const Case& now) {
     const std::string of_view = changed(before, now, k_of_view), of_case = changed(before, now, k_of_case);
     if (!of_view.empty()) add_once(shown(now.scene) + ", camera " + shown(now.camera) + ": " + of_view, views_);
@@ -90,6 +97,7 @@ class Changes {
       const std::optional<FigureValue> was = figure_value(before, figure), is = figure_value(now, figure);
       if (figure == std::string_view(k_instructions) && (!was || !baseline_.obstacle_to_instructions(now).empty()))
         continue;
+      has_instructions_ = has_instructions_ || (is && figure == std::string_view(k_instructions));
       if (is && !was) add_once(figure, unknown_);
       if (!is || !was || is->value() == was->value()) continue;
       const double percent = percent_change({was->value()}, {is->value()});
@@ -109,6 +117,7 @@ class Changes {
   Lines views_, cases_, unknown_;
   std::vector<const Case*> not_in_base_;
   std::size_t unchanged_ = 0;
+  bool has_instructions_ = false;
 };
 
 }  // namespace

@@ -144,6 +144,26 @@ void add_gone_views(const Result& result, const LightGate& gate, LimitFindings& 
                               "baseline again, or leave it out (--filter)");
 }
 
+// Cases of the base that the configuration still has, and that could not be measured: a driver that has gone.
+void add_left_out(const Result& result, const LightGate& gate, LimitFindings& findings) {
+  const Pattern wanted(gate.filter, "--filter");
+  for (const result::Skipped& skipped : result.skipped) {
+    const auto is_part = [&](const Case& base_case) {
+      const bool begins = base_case.name.starts_with(skipped.name) && base_case.preset == skipped.preset;
+      return begins && (base_case.name.size() == skipped.name.size() || base_case.name[skipped.name.size()] == '/');
+    };
+    const auto is_gone = [&](const Case& base_case) {
+      return is_part(base_case) && is_selected(wanted, base_case) &&
+             std::ranges::find(result.cases, base_case.name, &Case::name) == result.cases.end();
+    };
+    const auto count = std::ranges::count_if(gate.base->cases, is_gone);
+    if (count == 0) continue;
+    findings.broken.push_back(shown(skipped.name) + ": was measured in " + gate.base_name + " (" +
+                              number_of(static_cast<std::size_t>(count), "case") +
+                              ") and not here: " + shown(skipped.reason));
+  }
+}
+
 void add_changed_lights(const Result& result, const LightGate& gate, LimitFindings& findings) {
   for (const Scene& scene : result.scenes) {
     const Scene* before = scene_before(*gate.base, result, scene);
@@ -212,6 +232,7 @@ LimitFindings light_findings(const Result& result, const LightGate& gate) {
   add_changed_lights(result, gate, findings);
   add_changed_paths(result, gate, findings);
   add_gone_views(result, gate, findings);
+  add_left_out(result, gate, findings);
   return findings;
 }
 

@@ -15,6 +15,7 @@
 #include "report/gates/baseline_cases.h"
 #include "result/at.h"
 #include "result/figures/case_figure.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -96,11 +97,24 @@ class RuleCheck {
       for (const std::string& figure : figures_of({result_case}))
         if (const std::optional<FigureValue> found = figure_value(*result_case, figure)) {
           has_none = false;
-          add_verdict(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
+          const bool is_broken = rule_.is_broken_by(found->value());
+          if (is_broken || !add_cut_lists(*result_case, found->value()))
+            add_verdict(*result_case, is_broken, found->value(), is_text(rule_, *found));
         }
       if (has_none) without.push_back(result_case->name);
     }
     add_without(without);
+  }
+
+  // Lists that a method makes with room for some lights alone are no longer than that, however many lights a cell has.
+  bool add_cut_lists(const Case& result_case, double longest) {
+    const std::uint64_t dropped = result_case.buffers.overflow.dropped_pairs;
+    if (rule_.figure != "longest" || result_case.storage != run::k_own_structure || dropped == 0) return false;
+    findings_.broken.push_back(quoted_ + " could not be checked for " + shown(result_case.name) +
+                               ": its lists end at " + config::budget_number(longest) +
+                               " since the method itself dropped " + number_of(dropped, "pair") +
+                               "; hold dropped, and see `clusterbench size`");
+    return true;
   }
 
   // With several sets, needed lights are checked set by set: the largest set would hide a loss in another. Includes the

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "report/cases/columns.h"
 #include "report/sizing/size_words.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -93,10 +94,15 @@ std::string worst_lines(const SizedStructure& structure) {
 // Over all cameras; "" for a structure without lists.
 std::string longest_line(const SizedStructure& structure) {
   double longest = 0.0;
-  for (const result::Case* one : structure.cases)
-    if (one->occupancy && !structure.is_guest(one->camera))
-      longest = std::max(longest, one->occupancy->lights_per_cell.max);
-  return longest == 0.0 ? "" : "  longest list: " + number_of(static_cast<std::uint64_t>(longest), "light") + "\n";
+  bool is_cut = false;  // by the method itself
+  for (const result::Case* one : structure.cases) {
+    if (!one->occupancy || structure.is_guest(one->camera)) continue;
+    longest = std::max(longest, one->occupancy->lights_per_cell.max);
+    is_cut = is_cut || (one->storage == run::k_own_structure && one->buffers.overflow.dropped_pairs > 0);
+  }
+  if (longest == 0.0) return "";
+  return "  longest list: " + number_of(static_cast<std::uint64_t>(longest), "light") +
+         (is_cut ? ", after the method itself dropped some: a cell needs more" : "") + "\n";
 }
 
 std::string marks_text(const SizedStructure& structure, const AllocationRules& rules) {

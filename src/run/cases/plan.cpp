@@ -287,10 +287,7 @@ std::string impossible_text(const std::vector<Skipped>& skipped, const std::stri
 // A device that somebody named and that is not there is an error; without a name, cases that need one are skipped.
 void use_device(const config::Config& config) {
   gpu::use_device(config.device);
-  const bool is_needed = std::ranges::any_of(config.assigners, [](const config::MethodRequest& method) {
-    return assign::find_assigner(method.name)->on_device;
-  });
-  if ((is_needed || !config.reading_sets.empty()) && !config.device.empty() && !gpu::device_obstacle().empty())
+  if (!config.device.empty() && !gpu::device_obstacle().empty())
     throw Error(config.file.string(), "device", gpu::device_obstacle());
 }
 

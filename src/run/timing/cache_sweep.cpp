@@ -1,8 +1,11 @@
 #include "run/timing/cache_sweep.h"
 
 #include <algorithm>
+#include <new>
+#include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/kept_stores.h"
 #include "os/machine.h"
 
@@ -20,7 +23,12 @@ void sweep_caches(std::uint64_t bytes) {
   constexpr std::size_t k_line = 64;  // one plain store to each line: memset() may use stores that bypass the caches
   static std::vector<unsigned char> buffer;
   static unsigned char value = 0;
-  if (buffer.size() < bytes) buffer = std::vector<unsigned char>(bytes);
+  try {
+    if (buffer.size() < bytes) buffer = std::vector<unsigned char>(bytes);
+  } catch (const std::bad_alloc&) {
+    throw Error("", "timing.sweep_mib",
+                std::to_string(bytes >> 20) + " MiB to empty the caches with are not to be had here; allowed: less");
+  }
   ++value;
   for (std::size_t at = 0; at < bytes; at += k_line) buffer[at] = value;
   keep_stores(buffer.data());
