@@ -4,6 +4,7 @@ import { followAddress } from "./address.ts";
 import { againstSection } from "./against.ts";
 import { cellsSection } from "./cells_section.ts";
 import { depthSection } from "./depth.ts";
+import { deviceSection } from "./device.ts";
 import { h } from "./dom.ts";
 import { filterBar } from "./filter_bar.ts";
 import { fitSection } from "./fit.ts";
@@ -29,6 +30,7 @@ const sections = [
   rankingSection,
   againstSection,
   speedErrorSection,
+  deviceSection,
   heatMapSection,
   depthSection,
   picturesSection,

@@ -59,6 +59,23 @@ function machineFacts({ machine, simdTarget }: Place): [string, string][] {
   ];
 }
 
+// Of methods that ran on a device.
+function deviceFacts({ device }: Run["result"]): [string, string][] {
+  if (!device) return [];
+  const { arithmetic } = device;
+  const rounding = arithmetic?.rounding.replaceAll("_", " ") ?? (device.rounds_to_nearest ? "to nearest" : "unknown");
+  return [
+    ["device", `${device.name}, ${device.type}`],
+    ["driver", `${device.driver}, Vulkan ${device.vulkan}`],
+    ["UUID", device.uuid],
+    [
+      "arithmetic",
+      `rounds ${rounding}${arithmetic?.flushes_denormals ? ", flushes denormal numbers" : ""}, subgroups of ${device.subgroup_size}`,
+    ],
+    ["device's clock", device.timestamp_bits > 0 ? `ticks of ${device.timestamp_period_ns} ns` : "none"],
+  ];
+}
+
 // Of several machines of a result, each with its name and its share of the cases.
 function machineViews(run: Run, isAlone: boolean): HTMLElement[] {
   return placesOf(run).flatMap((place) => {
@@ -84,6 +101,7 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
     hasNames && h(isAlone ? "h3" : "h4", {}, "all machines"),
     facts([
       ["measured", [date, command].filter(Boolean).join(", ") || undated],
+      ...deviceFacts(run.result),
       ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
       ...plugins.map(({ id, version, file, sha256 }): [string, string] => [
         `plug-in ${id}`,

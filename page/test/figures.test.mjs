@@ -49,6 +49,49 @@ describe("figures", () => {
   });
 });
 
+describe("times of a device", () => {
+  it("are in a table of their own, fastest first, and in no other", async () => {
+    const page = await open(pages.onDevice);
+    assert.equal(await page.locator("#device h2").innerText(), "On a device");
+    await page.locator("#device-times-data > summary").click();
+    const rows = await inTable(page, "#device-times");
+    assert.deepEqual(
+      rows.map((row) => [row["device µs"], row["±"], row["× floor"], row["upload µs"], row["readback µs"]]),
+      ["10.0", "20.0", "30.0"].map((us) => [us, "10.0 %", `${Number(us) / 5}.00`, "4.00", "5.00"]),
+    );
+    assert.ok(rows.every((row) => row.device === "Card, driver 1.2"));
+    const ranked = await inTable(page);
+    assert.ok(ranked.every((row) => row["frame µs"] !== "10.0"));
+    await page.emulateMedia({ media: "print" });
+    const text = await page.locator("#setup, #machine, main").last().innerText();
+    assert.match(text, /Card, discrete GPU/);
+    assert.match(text, /rounds to nearest, flushes denormal numbers, subgroups of 32/);
+  });
+
+  it("are of readings, too, with the frame beside the figures' walk alone", async () => {
+    const page = await open(pages.onDevice);
+    const rows = await inTable(page, "#readings");
+    assert.deepEqual(
+      rows.map((row) => [row.walk, row["read µs"], row["× exact"], row["× nothing"], row["frame µs"]]),
+      [
+        ["light", "90.0", "1.50", "3.00", "–"],
+        ["lane", "100.0", "1.50", "3.00", "134.0"],
+      ],
+    );
+  });
+
+  it("of software are in the order of the result, and said to be no GPU's", async () => {
+    const page = await open(pages.onSoftware);
+    await page.locator("#device-times-data > summary").click();
+    const rows = await inTable(page, "#device-times");
+    assert.deepEqual(
+      rows.map((row) => row["device µs"]),
+      ["30.0", "10.0", "20.0"],
+    );
+    assert.match(await page.locator("#device-times").innerText(), /their times are no GPU's, are not sorted/);
+  });
+});
+
 describe("columns of figures", () => {
   const figures = () => JSON.parse(execFileSync(tool, ["list", "figures", "--json"], { encoding: "utf8" }));
   const named = {

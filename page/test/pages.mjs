@@ -11,6 +11,7 @@ import {
   measureSweep,
   ofTwoMachines,
   onAnotherMachine,
+  onDevice,
   presets,
   rankedByCost,
   sparse,
@@ -64,6 +65,8 @@ export const pages = lazily({
   pictures: () => pageOf("pictures", [results.pictured.file], "--images", results.pictured.images),
   byCost: () => pageOf("by-cost", [rankedByCost(committedResult, place)]),
   history: () => historyPage(tool, place),
+  onDevice: () => pageOf("on-device", [onDevice(committedResult, place)]),
+  onSoftware: () => pageOf("on-software", [onDevice(committedResult, place, true)]),
   two: () => pageOf("two", [committedResult, results.sweep]),
 });
 

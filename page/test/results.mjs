@@ -108,6 +108,53 @@ function changed(file, folder, name, change) {
   return into;
 }
 
+// The first three cases as of a device, which took 30, 10 and 20 us, and reads the lists of the first.
+export const onDevice = (file, folder, software = false) =>
+  changed(file, folder, software ? "on-software" : "on-device", (result) => {
+    const timeOf = (ns) => ({ median: ns, mad: 1, min: ns, p90: ns, ci95: [0.9 * ns, 1.1 * ns], samples: [ns] });
+    result.device = {
+      name: "Card",
+      driver: "driver 1.2",
+      vulkan: "1.3.0",
+      uuid: "0".repeat(32),
+      type: software ? "software" : "discrete GPU",
+      subgroup_size: 32,
+      timestamp_bits: 64,
+      timestamp_period_ns: 1,
+      rounds_to_nearest: true,
+      arithmetic: { rounding: "to_nearest", flushes_denormals: true },
+    };
+    for (const [at, one] of result.cases.slice(0, 3).entries()) {
+      const run_ns = timeOf([30e3, 10e3, 20e3][at]);
+      delete one.timing;
+      one.assigner.on_device = true;
+      one.device = {
+        device: "Card, driver 1.2",
+        software,
+        run_ns,
+        upload_ns: timeOf(4e3),
+        readback_ns: timeOf(5e3),
+        floor_ns: timeOf(5e3),
+        floor_ratio: run_ns.median / 5e3,
+      };
+    }
+    const walk = (name, ns) => ({
+      walk: name,
+      read_ns: timeOf(ns),
+      cold_ns: timeOf(2 * ns),
+      exact_ratio: 1.5,
+      nothing_ratio: 3,
+    });
+    result.cases[0].reading = {
+      device: "Card, driver 1.2",
+      software,
+      frame_ns: 134e3,
+      set: "opaque",
+      walk: "lane",
+      sets: [{ set: "opaque", samples: 100, lights: 7, reads: 8, walks: [walk("lane", 100e3), walk("light", 90e3)] }],
+    };
+  });
+
 // Times that are known to a half and twice.
 export const widened = (file, folder) =>
   changed(file, folder, "wide", ({ cases }) => {

@@ -82,9 +82,10 @@ struct Reading {
         "own "
         "frames: reading.frames, timing.frames, and all for uploads of the processor. A method on the device: "
         "device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, "
-        "and only where config.reading.async is given. Assignments are cold where timing.cold asks for it, readings "
-        "warm. "
-        "Builds for a changed grid and the picture of depths are in none",
+        "and only where config.reading.async is given. Absent where a part of the pixels is read "
+        "(config.reading.divisor), and where the host has put lists of the device into another storage. Assignments "
+        "are cold where timing.cold asks for it, readings warm. Builds for a changed grid and the picture of depths "
+        "are in none",
         "ns", "one frame");
   FIELD(std::string, set, "Its samples are those of the figures and of frame_ns: the configuration's first");
   FIELD(std::string, walk,

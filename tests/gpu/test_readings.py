@@ -237,7 +237,7 @@ class WithoutDevice(unittest.TestCase):
         self.assertNotIn("reading", result["cases"][0])
         self.assertIn("frame_ns", result["cases"][0]["timing"])
         self.assertTrue(result["cases"][0]["unread"])
-        self.assertIn("Not read on a device: 1 case: ", done.stderr)
+        self.assertIn("not read on a device: 1 case: ", done.stderr)
 
 
 if __name__ == "__main__":

@@ -104,8 +104,12 @@ Value reading_by(const Recount& of, const std::string& other) {
   return ratio_of_rounds(of, std::string(k_first_walk) + "/read_ns/samples", other + "/samples");
 }
 
-// Half of the assignment runs beside other work (with_readings()).
+// Half of the assignment runs beside other work (with_readings()). A device makes packed lists, and no others of a
+// storage.
 Value device_frame_us(const Recount& of) {
+  const std::string storage = of.json("/storage")->get<std::string>();
+  const bool is_on_device = of.json("/assigner/on_device") != nullptr;
+  if (is_on_device && storage != "packed" && storage != "own") return {};
   const Value read = median_of(of.list(std::string(k_first_walk) + "/read_ns/samples"));
   if (!read) return {};
   if (const Value on_device = median_of(of.list("/device/run_ns/samples")))

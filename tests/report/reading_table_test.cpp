@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "report/comparison_by_hand.h"
 #include "report/results/measured_prices.h"
+#include "report/tables/warnings.h"
 #include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
@@ -91,6 +92,42 @@ TEST(ReadingTable, is_by_the_time_of_a_frame_where_all_have_it) {
       << table;
 }
 
+// A sixteenth of the pixels takes a sixteenth of the time, and the assignment all of its own.
+TEST(ReadingTable, of_a_part_of_the_pixels_has_no_frame) {
+  run::Result result = read_result();
+  result.config["reading"] = {{"async", 0.0}, {"divisor", 4}};
+  result.config["cost"] = {{"upload_gb_per_s", 15.75}};
+  const Json json = testing::json_of(result);
+  EXPECT_FALSE(json["cases"][0]["reading"].contains("frame_ns"));
+  const std::string table = reading_table(test::result_of(json));
+  EXPECT_EQ(table.find("Cheapest"), std::string::npos) << table;
+  EXPECT_NE(table.find("samples of a part of the pixels (reading.divisor)"), std::string::npos) << table;
+  result.config["reading"]["divisor"] = 1;
+  EXPECT_TRUE(testing::json_of(result)["cases"][0]["reading"].contains("frame_ns"));
+}
+
+// The device has made packed lists.
+TEST(ReadingTable, of_lists_of_a_device_in_another_storage_has_no_frame_and_ranks_below) {
+  run::Result result = read_result();
+  result.config["reading"] = {{"async", 0.0}};
+  result.config["cost"] = {{"upload_gb_per_s", 15.75}};
+  run::CaseResult& on_device = result.cases[1];
+  on_device.timing.reset();
+  on_device.on_device = true;
+  on_device.device.emplace();
+  const auto time = rounds_of(100.0);
+  on_device.device->warm = {time, time, time, time, 1.0, {}};
+  EXPECT_NE(table_of(result).find("Cheapest with its assignment and upload: " + on_device.assigner_label),
+            std::string::npos);
+  on_device.storage_label = "bitfield";
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("Cheapest with its assignment and upload: " + result.cases[0].assigner_label), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("No frame where lists of the device are in another storage"), std::string::npos) << table;
+  EXPECT_LT(line_with(table, result.cases[0].assigner_label + " / packed  "),
+            line_with(table, on_device.assigner_label + " / bitfield  "));
+}
+
 TEST(ReadingTable, says_what_exact_lists_would_save_at_most) {
   const std::string table = table_of(read_result());
   EXPECT_NE(table.find("would save a frame at most 3.06 us of reading, those of " +
@@ -148,14 +185,17 @@ TEST(ReadingTable, warns_of_lights_that_a_device_walked_wrongly) {
   EXPECT_NE(table_of(result).find("7 walks met other lights"), std::string::npos);
 }
 
-TEST(ReadingTable, is_missing_without_readings_and_its_reason_is_told) {
+TEST(ReadingTable, is_missing_without_readings_and_a_warning_tells_the_reason) {
   run::Result result = result_by_hand();
+  const auto warnings = [&] { return warnings_text(test::result_of(testing::json_of(result))); };
   EXPECT_EQ(table_of(result), "");
+  EXPECT_EQ(warnings().find("not read on a device"), std::string::npos);
   for (run::CaseResult& one : result.cases) one.unread = "there is no Vulkan driver";
-  EXPECT_EQ(table_of(result), "Not read on a device: 2 cases: there is no Vulkan driver.\n");
+  EXPECT_EQ(table_of(result), "");
+  EXPECT_NE(warnings().find("warning: not read on a device: 2 cases: there is no Vulkan driver\n"), std::string::npos);
   result.cases[1].reading = read_result().cases[1].reading;
   result.cases[1].unread = "";
-  EXPECT_NE(table_of(result).find("Not read on a device: 1 case: there is"), std::string::npos);
+  EXPECT_NE(warnings().find("not read on a device: 1 case: there is"), std::string::npos);
 }
 
 // --- Prices ---

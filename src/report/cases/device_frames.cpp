@@ -5,6 +5,7 @@
 #include "result/at.h"
 #include "result/figures/case_figure.h"
 #include "result/rounding.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -29,9 +30,14 @@ std::optional<ListTimes> of_processor(const Case& result_case, const result::Jso
   return ListTimes{result_case.timing->frame_ns.median, *bytes / cost_model_of(config["cost"]).upload_gb_per_s};
 }
 
+result::Json reading_of(const result::Json& config) {
+  return config.contains("reading") ? config["reading"] : result::Json();
+}
+
 std::optional<double> frame_ns(const Case& result_case, const result::Json& config) {
+  if (reads_a_part(*result_case.reading, config) || is_converted_untimed(result_case)) return {};
   const std::optional<double> read_us = result::figure_of(result_case, "reading_us");
-  const result::Json& reading = config.contains("reading") ? config["reading"] : result::Json();
+  const result::Json reading = reading_of(config);
   const bool is_given = reading.is_object() && reading.contains("async");
   const bool is_on_device = runs_on_device(result_case);
   const auto lists = is_on_device ? of_device(result_case)
@@ -43,6 +49,16 @@ std::optional<double> frame_ns(const Case& result_case, const result::Json& conf
 }
 
 }  // namespace
+
+bool reads_a_part(const result::Reading& reading, const result::Json& config) {
+  const bool reads_surfaces = reading.set == "opaque" || reading.set == "transparent" || reading.set == "mirror";
+  const result::Json request = reading_of(config);
+  return reads_surfaces && request.is_object() && request.value("divisor", 1) != 1;
+}
+
+bool is_converted_untimed(const Case& result_case) {
+  return runs_on_device(result_case) && result_case.storage != "packed" && result_case.storage != run::k_own_structure;
+}
 
 void add_device_frames(std::vector<Case>& cases, const result::Json& config) {
   for (Case& result_case : cases)

@@ -7,8 +7,14 @@
 
 namespace clusterbench::report {
 
-// Computes Reading::frame_ns of each case that has a reading, and replaces an older one. A method of the processor has
-// one only where config.reading.async says how much of its time the frame waits for.
+// Whether it reads some of a frame's pixels alone, so that no sum with it is of a frame.
+bool reads_a_part(const result::Reading& reading, const result::Json& config);
+// A device's time is that of its own structure or of packed lists. In another storage the same lists were put by the
+// host, untimed.
+bool is_converted_untimed(const result::Case& result_case);
+
+// Computes Reading::frame_ns of each case that has a reading, and replaces an older one. None for the two above. A
+// method of the processor has one only where config.reading.async says how much of its time the frame waits for.
 void add_device_frames(std::vector<result::Case>& cases, const result::Json& config);
 
 }  // namespace clusterbench::report

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
+#include "report/cases/device_frames.h"
 #include "result/at.h"
 #include "run/cases/case_names.h"
 
@@ -39,8 +39,13 @@ bool is_sound(const Case& result_case) {
          result_case.buffers.overflow.dropped_pairs == 0;
 }
 
+// Whether the figures' lines have the time of a frame, but for those whose lists the host has converted, which have
+// none.
 bool have_frames(const std::vector<ReadingLine>& lines) {
-  return std::ranges::all_of(lines, [](const ReadingLine& line) { return !line.is_first() || line.frame_ns(); });
+  const auto has_frame = [](const ReadingLine& line) { return line.frame_ns().has_value(); };
+  return std::ranges::any_of(lines, has_frame) && std::ranges::all_of(lines, [&](const ReadingLine& line) {
+           return !line.is_first() || has_frame(line) || is_converted_untimed(*line.result_case);
+         });
 }
 
 std::string us_text(double ns) {
@@ -66,8 +71,10 @@ std::vector<ReadingLine> lines_of(const std::vector<const Case*>& cases, const s
   }
   const bool is_by_frame = have_frames(lines);
   const auto key = [&](const ReadingLine& line) {
-    const double ns = is_by_frame && line.is_first() ? *line.frame_ns() : line.walk->read_ns.median;
-    return std::tuple(line.set_order, line.walk_order, !is_software && !line.is_sound, is_software ? 0.0 : ns);
+    const bool has_frame = is_by_frame && line.frame_ns();
+    const double ns = has_frame ? *line.frame_ns() : line.walk->read_ns.median;
+    return std::tuple(line.set_order, line.walk_order, !is_software && !line.is_sound,
+                      !is_software && is_by_frame && line.is_first() && !has_frame, is_software ? 0.0 : ns);
   };
   std::ranges::stable_sort(lines, {}, key);
   return lines;
@@ -97,7 +104,7 @@ double most_saved_ns(const ReadingLine& line) {
   return line.walk->read_ns.median * (1.0 - 1.0 / result::Pair(*line.walk->exact_ci95)[1]);
 }
 
-// The most that exact lists save: what a tighter method may cost more. Only where nothing is lost or dropped: shorter
+// The most that exact lists save, with lights as cheap as the reading's. Only where nothing is lost or dropped: shorter
 // lists that lack lights are read faster than exact ones.
 std::string savings_text(const std::vector<ReadingLine>& lines) {
   const ReadingLine* most = nullptr;
@@ -116,12 +123,12 @@ std::string savings_text(const std::vector<ReadingLine>& lines) {
   const auto [low, high] = result::Pair(*most->walk->exact_ci95);
   return "   Exact lists in the same storage would save a frame at most " + us_text(most_saved_ns(*most)) +
          " us of reading, those of " + line_name(*most) + text(" (x %.3g", low) + text(" to %.3g)", high) +
-         ": what a tighter method may cost more.\n";
+         ": with as cheap a light as here, a tighter method must not cost more than that.\n";
 }
 
 // The cheapest frame, and the next.
 std::string cheapest_text(const std::vector<ReadingLine>& lines) {
-  const bool has_next = lines.size() > 1 && lines[1].is_sound && lines[1].is_first();
+  const bool has_next = lines.size() > 1 && lines[1].is_sound && lines[1].is_first() && lines[1].frame_ns();
   return "   Cheapest with its assignment and upload: " + line_name(lines[0]) + ", " + us_text(*lines[0].frame_ns()) +
          " us a frame" +
          (has_next ? "; " + line_name(lines[1]) +
@@ -150,7 +157,8 @@ std::string reading_block(const std::string& block, const std::vector<ReadingLin
   std::string out = " " + block + "\n" + aligned_rows(rows);
   if (lines.front().result_case->reading->software) return out + fault_text(lines);
   out += savings_text(lines);
-  if (have_frames(lines) && lines.front().is_sound && lines.front().is_first()) out += cheapest_text(lines);
+  const bool is_known = lines.front().is_sound && lines.front().is_first() && lines.front().frame_ns();
+  if (is_known && have_frames(lines)) out += cheapest_text(lines);
   return out + fault_text(lines);
 }
 
@@ -163,22 +171,11 @@ std::vector<std::string> devices_of_scene(const result::Result& result, const re
   return devices;
 }
 
-// "Not read on a device: 3 cases: REASON; ..."
-std::string unread_text(const std::vector<Case>& cases) {
-  std::map<std::string, std::size_t> reasons;
-  for (const Case& result_case : cases)
-    if (result_case.unread) ++reasons[*result_case.unread];
-  std::string out;
-  for (const auto& [reason, count] : reasons)
-    out += (out.empty() ? "Not read on a device: " : "; ") + number_of(count, "case") + ": " + shown(reason);
-  return out.empty() ? "" : out + ".\n";
-}
-
 }  // namespace
 
 std::string reading_table(const result::Result& result) {
   std::string out;
-  bool has_frames = false, has_unsound = false;
+  bool has_frames = false, has_unsound = false, is_part = false, is_converted = false;
   for (const result::Scene& scene : result.scenes)
     for (const std::string& device : devices_of_scene(result, scene)) {
       std::string blocks;
@@ -191,6 +188,8 @@ std::string reading_table(const result::Result& result) {
         for (const ReadingLine& line : lines) {
           has_frames |= line.frame_ns().has_value();
           has_unsound |= !line.is_sound;
+          is_part |= reads_a_part(*line.result_case->reading, result.config);
+          is_converted |= is_converted_untimed(*line.result_case);
         }
       }
       out += "reading on " + shown(device) + ": " + shown(scene.name) + "\n";
@@ -199,8 +198,7 @@ std::string reading_table(const result::Result& result) {
             " A software device: these times are a processor's and no GPU's. They are not sorted, and rank nothing.\n";
       out += blocks + "\n";
     }
-  std::string unread = unread_text(result.cases);
-  if (out.empty()) return unread;
+  if (out.empty()) return out;
   return "\n" + out +
          "read: a frame's samples look up their lists, walk them and add a small attenuation for each light, by the "
          "device's clock;\ncold: the same once after other memory. x exact: times the same with exact lists of all "
@@ -208,10 +206,14 @@ std::string reading_table(const result::Result& result) {
          "lights, reads: walked lights and fetched elements of a sample.\n" +
          (has_frames ? "frame: assignment, upload and this reading, less what runs beside other work (reading.async).\n"
                      : "") +
+         (has_frames && is_converted ? "No frame where lists of the device are in another storage: making that is not "
+                                       "timed.\n"
+                                     : "") +
+         (is_part ? "These are samples of a part of the pixels (reading.divisor), so that no time is a frame's.\n"
+                  : "") +
          (has_unsound ? "!: lacks lights that are needed (lost, dropped or culled), which makes lists short, fails, or "
                         "does not promise to have all\nlights: in no sentence, and last where lines are sorted.\n"
-                      : "") +
-         unread;
+                      : "");
 }
 
 }  // namespace clusterbench::report

@@ -335,7 +335,8 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
   if (extras.device)
     out += std::string("device: the device's work for a frame by its own clock, from lights to lists") +
            (extras.device_cold ? ", with cold caches (warm: without)" : "") +
-           "; ±: half of its 95 % interval;\nx floor: times what as many steps take that only write as much; upload, "
+           "; ±: half of its 95 % interval;\nx floor: times what as many steps take that do nothing, the last of which "
+           "writes\nas many bytes; upload, "
            "readback: of the frame's lights and lists" +
            (extras.device_builds ? "; build: of the cells, when the grid changes" : "") +
            ".\nThese times are not compared with the processor's.\n";

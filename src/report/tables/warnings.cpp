@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
+#include "report/cases/contender.h"
 #include "report/documents/machine_name.h"
 
 namespace clusterbench::report {
@@ -25,14 +26,17 @@ std::string scene_warnings(const std::vector<Scene>& scenes) {
   return out;
 }
 
-// One line per message for all its cases: all lists of one grid miss the same lights outside of it. Without lost pairs,
-// which have a column, and unchecked cases, which the configuration requested.
+constexpr const char* k_no_promise = "; it fails nothing, since the shader's JSON has no \"conservative\": true";
+
+// One line per message for all its cases: all lists of one grid miss the same lights outside of it. Without lost pairs
+// of the program's own methods, which have a column, and unchecked cases, which the configuration requested.
 std::string case_warnings(const std::vector<Case>& cases) {
   std::vector<std::pair<std::string, std::vector<std::string>>> messages;  // message, names of its cases
   for (const Case& result_case : cases)
     for (const result::Warning& warning : result_case.warnings) {
-      if (warning.kind == "unchecked" || warning.kind == "lost_pairs") continue;
-      const std::string message = shown(warning.text);
+      const bool is_of_shader = runs_on_device(result_case) && result_case.assigner.file;  // a user's
+      if (warning.kind == "unchecked" || (warning.kind == "lost_pairs" && !is_of_shader)) continue;
+      const std::string message = shown(warning.text) + (warning.kind == "lost_pairs" ? k_no_promise : "");
       const auto same =
           std::find_if(messages.begin(), messages.end(), [&](const auto& had) { return had.first == message; });
       (same == messages.end() ? messages.emplace_back(message, std::vector<std::string>{}) : *same)
@@ -75,6 +79,17 @@ std::string ranges_text(const result::RangeRule& rule) {
   if (!rule.ranges) return "";
   return "; the scene's ranges: least " + text("%.3g m", rule.ranges->least) +
          text(", median %.3g m", rule.ranges->median) + text(", greatest %.3g m", rule.ranges->greatest);
+}
+
+// Of structures that a device was to read.
+std::string unread_warnings(const std::vector<Case>& cases) {
+  std::map<std::string, std::size_t> reasons;
+  for (const Case& result_case : cases)
+    if (result_case.unread) ++reasons[*result_case.unread];
+  std::string out;
+  for (const auto& [reason, count] : reasons)
+    out += "warning: not read on a device: " + number_of(count, "case") + ": " + shown(reason) + "\n";
+  return out;
 }
 
 // Notes on grids, each once with its grids.
@@ -147,7 +162,8 @@ std::string notes_text(const result::Result& result) {
 }
 
 std::string warnings_text(const result::Result& result) {
-  return scene_warnings(result.scenes) + case_warnings(result.cases) + cost_warning(result.cases);
+  return scene_warnings(result.scenes) + case_warnings(result.cases) + unread_warnings(result.cases) +
+         cost_warning(result.cases);
 }
 
 }  // namespace clusterbench::report

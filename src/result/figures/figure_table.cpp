@@ -299,7 +299,9 @@ constexpr Figure k_figures[] = {
      .export_name = "lights_per_cell_p99"},
     {.name = "longest",
      .unit = "lights",
-     .meaning = "lights in the fullest cell of any frame, before a storage drops any",
+     .meaning = "lights in the fullest cell of any frame, before a storage drops any; of lists that a method makes "
+                "itself after it "
+                "dropped some",
      .better = neither,
      .recorded = number<&Case::occupancy, &Occupancy::lights_per_cell, &LightsPerCell::max>,
      .worst = {number<&Case::occupancy, &Occupancy::worst_frame>, part<&Case::occupancy, &Occupancy::worst_cell>},
@@ -548,7 +550,7 @@ constexpr Figure k_figures[] = {
      .export_name = "device_readback_time"},
     {.name = "device_floor",
      .unit = "ratio",
-     .meaning = "time of a device's work / time of as many steps that only write as much",
+     .meaning = "time of a device's work / time of as many steps that do nothing, of which the last writes as many bytes",
      .basis = time,
      .recorded = number<&Case::device, &DeviceTimes::floor_ratio>,
      .none = k_of_devices},
