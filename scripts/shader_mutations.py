@@ -27,7 +27,8 @@ VERDICTS = ROOT / "build" / "shader_mutations.json"
 DOCUMENT = ROOT / "tests" / "gpu" / "README.md"
 PROGRAM = "test_gpu"
 MODULES = "shaders"  # the mode that only reads the SPIR-V
-TIMEOUT_S = 60
+LEAST_TIMEOUT_S = 60
+TIMEOUT_RUNS = 10  # so many times as long as without a change: the program hangs
 FOUND = ("found", "crash", "hang")
 
 
@@ -70,7 +71,7 @@ def outcome(mode):
     command = [str(BUILD / "tests" / PROGRAM), "--gtest_filter=" + ":".join(mode["tests"]), "--gtest_fail_fast"]
     try:
         done = subprocess.run(command, env={**os.environ, **environment},
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT_S)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=mode.get("timeout_s"))
     except subprocess.TimeoutExpired as late:
         text = (late.stdout or b"").decode(errors="replace")
         return "hang", text.rsplit("[ RUN      ] ", 1)[-1].split("\n")[0]
@@ -139,7 +140,9 @@ def prepare(modes_wanted, jobs):
         how, test = outcome(mode)
         if how:
             raise plain.Broken(f"without any mutation {name} fails: {how} {test}")
-        print(f"{name}: {len(mode['tests'])} tests pass in {time.monotonic() - start:.0f} s", flush=True)
+        seconds = time.monotonic() - start
+        mode["timeout_s"] = max(LEAST_TIMEOUT_S, TIMEOUT_RUNS * seconds)
+        print(f"{name}: {len(mode['tests'])} tests pass in {seconds:.0f} s", flush=True)
     return modes
 
 
