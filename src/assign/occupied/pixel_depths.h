@@ -46,8 +46,6 @@ class PixelDepths {
   // The ranges of the cells.
   void find_in_cells(const depth::DepthImage& image, DepthRanges& out) const;
 
-  // The depths at which the lookup changes the slice: the first depth of each slice, and the end of the last one.
-  const std::vector<float>& slice_begins() const { return slice_begins_; }
   // The first pixel of each column and each row of tiles, and the end of the last one.
   const std::vector<std::uint32_t>& column_begins() const { return column_begins_; }
   const std::vector<std::uint32_t>& row_begins() const { return row_begins_; }

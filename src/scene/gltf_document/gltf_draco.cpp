@@ -22,10 +22,6 @@
 
 namespace clusterbench::scene {
 
-bool has_draco() {
-  return CLUSTERBENCH_HAS_DRACO != 0;
-}
-
 #if CLUSTERBENCH_HAS_DRACO
 namespace {
 

@@ -24,6 +24,4 @@ struct DracoMesh {
 DracoMesh draco_mesh(std::string_view stream, const JsonLocation& extension,
                      const std::map<std::string, std::size_t>& wanted);
 
-bool has_draco();  // whether the program was built with the library
-
 }  // namespace clusterbench::scene
