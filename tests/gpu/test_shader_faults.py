@@ -4,6 +4,7 @@
   tests/gpu/test_shader_faults.py CLUSTERBENCH CHECKOUT
 """
 import copy
+import json
 import struct
 import subprocess
 import unittest
@@ -201,6 +202,21 @@ class Faults(unittest.TestCase):
             result, done = folder.run(configuration(), "--shader", folder.method(METHOD, body), "--no-timing")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(case_of(result, "mine")["error"]["false_negatives"], 0)
+
+    def test_work_that_goes_on_after_a_signal_is_left_behind(self):
+        endless = "for (uint x = cell; lists[0] != 0xfffffff0u; ++x) lists[x % 800u] = x & 1u;"
+        with Folder() as folder:
+            config = folder.file("config.json", json.dumps(configuration(assigners=["brute-force"])))
+            command = [PROGRAM, "run", config, "--shader", folder.method(METHOD, endless), "--no-timing", "-o", f"{folder.path}/result.json"]
+            with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as run:
+                try:
+                    run.wait(timeout=8)
+                    return  # this driver ends loops itself
+                except subprocess.TimeoutExpired:
+                    run.terminate()
+                _, said = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 75, said)
+        self.assertRegex(said, "interrupted")
 
     def test_lights_that_are_twice_in_a_list_are_counted_and_told(self):
         body = COUNTED.replace("COUNT", "count").replace("++count; }", "++count; if (light % 16 == 0) { lists[cell * 200 + 1 + count] = light; ++count; } }")
