@@ -111,7 +111,7 @@ function changed(file, folder, name, change) {
 // The first three cases as of a device, which took 30, 10 and 20 us, and reads the lists of the first.
 export const onDevice = (file, folder, software = false) =>
   changed(file, folder, software ? "on-software" : "on-device", (result) => {
-    const timeOf = (ns) => ({ median: ns, mad: 1, min: ns, p90: ns, ci95: [0.9 * ns, 1.1 * ns], samples: [ns] });
+    const timeOf = (ns) => ({ median: ns, mad: 1, min: ns, p95: ns, ci95: [0.9 * ns, 1.1 * ns], samples: [ns] });
     result.device = {
       name: "Card",
       driver: "driver 1.2",
@@ -122,7 +122,19 @@ export const onDevice = (file, folder, software = false) =>
       timestamp_bits: 64,
       timestamp_period_ns: 1,
       rounds_to_nearest: true,
-      arithmetic: { rounding: "to_nearest", flushes_denormals: true },
+      max_buffer_bytes: 1e9,
+      max_group_size: 1024,
+      shared_bytes: 32768,
+      arithmetic: {
+        rounding: "to_nearest",
+        contracts: false,
+        reorders: false,
+        flushes_denormals: true,
+        division_ulp: 1,
+        sqrt_ulp: 1,
+        log2_ulp: 1,
+        log2_error: 0,
+      },
     };
     for (const [at, one] of result.cases.slice(0, 3).entries()) {
       const run_ns = timeOf([30e3, 10e3, 20e3][at]);
@@ -131,6 +143,8 @@ export const onDevice = (file, folder, software = false) =>
       one.device = {
         device: "Card, driver 1.2",
         software,
+        frames_timed: 4,
+        dispatches: 3,
         run_ns,
         upload_ns: timeOf(4e3),
         readback_ns: timeOf(5e3),
@@ -148,10 +162,25 @@ export const onDevice = (file, folder, software = false) =>
     result.cases[0].reading = {
       device: "Card, driver 1.2",
       software,
+      frames: 1,
+      structure_bytes: 4096,
       frame_ns: 134e3,
       set: "opaque",
       walk: "lane",
-      sets: [{ set: "opaque", samples: 100, lights: 7, reads: 8, walks: [walk("lane", 100e3), walk("light", 90e3)] }],
+      sets: [
+        {
+          set: "opaque",
+          samples: 100,
+          lights: 7,
+          reads: 8,
+          read_bytes: 32,
+          divergence: 1,
+          differing: 0,
+          write_ns: timeOf(1e3),
+          nothing_ns: timeOf(2e3),
+          walks: [walk("lane", 100e3), walk("light", 90e3)],
+        },
+      ],
     };
   });
 

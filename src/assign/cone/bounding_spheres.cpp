@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// As geom::bounding_ball; without `around_cones`, the ball of the range.
+// As LightArrays::bounding_ball(); without `around_cones`, the ball of the range.
 void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
   for (std::uint32_t i = 0; i < lights.spots.count; i += lane_count()) {
     const std::uint32_t left = std::min(lane_count(), lights.spots.count - i);
@@ -24,21 +24,26 @@ void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_co
     const auto of_light = [&](const std::vector<float>& list) {
       return loaded(list.data() + lights.spots.first + i, left);
     };
-    const V given = of_light(lights.radius), range = padded(given, of_light(lights.reach), roundoffs);
-    const V x = of_light(lights.x), y = of_light(lights.y), z = of_light(lights.z);
-    V along = Zero(D()), radius = range;
-    if (around_cones) {
+    const V range = of_light(lights.radius), reach = of_light(lights.reach);
+    V x = of_light(lights.x), y = of_light(lights.y), z = of_light(lights.z), radius = range;
+    if (!around_cones) {
+      radius = padded(range, reach, roundoffs);
+    } else {
       const V cosine = of_spot(lights.cos_angle), sine = of_spot(lights.sin_angle);
       const M is_narrow = cosine > sine, is_endless = range == infinity();
       const V of_cone = IfThenElse(is_narrow, range / (all(2.0f) * cosine), range * cosine);
       const V around = IfThenElse(is_narrow, of_cone, range * sine);
-      along = IfThenZeroElse(is_endless, of_cone);
+      const V along = IfThenZeroElse(is_endless, of_cone);
       radius = IfThenElse(is_endless, range, around + all(0x1p-20f) * (Abs(x) + Abs(y) + Abs(z) + range));
+      x = x + along * of_spot(lights.axis_x);
+      y = y + along * of_spot(lights.axis_y);
+      z = z + along * of_spot(lights.axis_z);
+      radius = padded(radius, Max(reach, Abs(x) + Abs(y) + Abs(z) + radius), roundoffs);
     }
-    StoreU(x + along * of_spot(lights.axis_x), D(), balls.x.data() + i);
-    StoreU(y + along * of_spot(lights.axis_y), D(), balls.y.data() + i);
-    StoreU(z + along * of_spot(lights.axis_z), D(), balls.z.data() + i);
-    StoreU(IfThenElseZero(given > Zero(D()), radius), D(), balls.radius.data() + i);
+    StoreU(x, D(), balls.x.data() + i);
+    StoreU(y, D(), balls.y.data() + i);
+    StoreU(z, D(), balls.z.data() + i);
+    StoreU(IfThenElseZero(range > Zero(D()), radius), D(), balls.radius.data() + i);
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // Bounding spheres, many at once: spheres around spots, and tests of a cone against the spheres around cells. Both do
-// the same operations in the same order as geom/single_precision (bounding_ball of LightArrays::cone,
-// cone_touches_ball).
+// the same operations in the same order as LightArrays::bounding_ball() and geom's cone_touches_ball().
 
 #include <cstdint>
 #include <span>
