@@ -17,8 +17,8 @@ struct Subject {
   std::string file;  // the plug-in's, for messages
   const plugin::MethodFacts* method = nullptr;
   std::uint64_t seed = 1;
-  double seconds = 5.0;   // for tests that draw until time is over
-  double limit_s = 60.0;  // after which a test is ended
+  double seconds = 5.0;                           // for tests that draw until time is over
+  double limit_s = 60.0;                          // after which a test is ended
   std::vector<std::string> changes_on_loading{};  // plugin::PluginFacts::changes_on_loading
 
   // With the default values of its parameters, as the program runs it.

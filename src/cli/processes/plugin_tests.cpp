@@ -43,8 +43,8 @@ const plugin::MethodFacts& method_of(const plugin::LoadedPlugin& plugin, const s
 
 result::PluginTest test_here(const PluginCheckRequest& request, const std::string& method, const std::string& test) {
   const plugin::LoadedPlugin& plugin = loaded(request);
-  const acceptance::Subject subject{plugin.file.string(), &method_of(plugin, method), request.seed, request.seconds,
-                                    request.timeout_s, plugin.facts.changes_on_loading};
+  const acceptance::Subject subject{plugin.file.string(), &method_of(plugin, method), request.seed,
+                                    request.seconds,      request.timeout_s,          plugin.facts.changes_on_loading};
   const acceptance::AcceptanceTest* row = acceptance::find_test(test);
   if (row == nullptr) throw Error("", k_serve_test, "names no test", ExitCode::internal);
   const acceptance::Findings findings = acceptance::run_test(*row, subject);

@@ -550,7 +550,8 @@ constexpr Figure k_figures[] = {
      .export_name = "device_readback_time"},
     {.name = "device_floor",
      .unit = "ratio",
-     .meaning = "time of a device's work / time of as many steps that do nothing, of which the last writes as many bytes",
+     .meaning =
+         "time of a device's work / time of as many steps that do nothing, of which the last writes as many bytes",
      .basis = time,
      .recorded = number<&Case::device, &DeviceTimes::floor_ratio>,
      .none = k_of_devices},
