@@ -111,7 +111,7 @@ function readColumns(view: View): Column<Read>[] {
 }
 
 // What a processor's clock measures says nothing of a GPU.
-const isSoftware = ({ times }: Timed) => times.software ?? false;
+const isSoftware = ({ aCase, times }: Timed) => times.software ?? aCase.run.result.device?.type === "software";
 const softwareNote =
   " Software devices compute on the processor: their times are no GPU's, are not sorted, and rank nothing.";
 
@@ -189,7 +189,10 @@ function timedFigure(view: View): HTMLElement | null {
     title: "Methods on a device",
     lead:
       "From uploaded lights to finished lists, by the device's clock; never ranked beside times of the processor. Left is faster; fewer pairs are tighter lists, within one grid. Bars are 95 % intervals." +
-      (rows.some(isSoftware) ? softwareNote : ""),
+      (rows.some(isSoftware) ? softwareNote : "") +
+      (panels.length > mostPanels
+        ? ` The first ${mostPanels} of ${panels.length}; choose a scene above for the others.`
+        : ""),
     ...(panels.length > 0
       ? {
           chart: multiples(

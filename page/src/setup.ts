@@ -72,7 +72,7 @@ function deviceFacts({ device }: Run["result"]): [string, string][] {
       "arithmetic",
       `rounds ${rounding}${arithmetic?.flushes_denormals ? ", flushes denormal numbers" : ""}, subgroups of ${device.subgroup_size}`,
     ],
-    ["device's clock", device.timestamp_bits > 0 ? `ticks of ${device.timestamp_period_ns} ns` : "none"],
+    ["device's clock", device.timestamp_bits > 0 ? `ticks of ${device.timestamp_period_ns ?? "unknown"} ns` : "none"],
   ];
 }
 

@@ -67,8 +67,8 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 
 }  // namespace
 
-// libc++ has no std::from_chars for doubles before version 20. The program never leaves the locale C, and plug-ins are
-// kept from it (plugin/plugins.cpp).
+// libc++ has no std::from_chars for doubles before version 20. The program never leaves the locale C, nor does what
+// a plug-in sets as it is loaded stay (plugin/plugins.cpp).
 std::optional<double> decimal_number(std::string_view text) {
   if (text.empty() || text.front() == '+' || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
     return std::nullopt;

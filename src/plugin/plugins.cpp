@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <locale>
 #include <optional>
 #include <set>
 
@@ -69,16 +70,20 @@ os::SharedLibrary loaded_library(const fs::path& file) {
   return *library;
 }
 
-// Numbers are read and written as in the locale C, whatever a library sets as it is loaded.
+// Numbers are read and written as in the locale C, whatever a library sets as it is loaded, for C or for C++.
 class KeptLocale {
  public:
   KeptLocale() = default;
   KeptLocale(const KeptLocale&) = delete;
   KeptLocale& operator=(const KeptLocale&) = delete;
-  ~KeptLocale() { std::setlocale(LC_ALL, name_.c_str()); }
+  ~KeptLocale() {
+    std::locale::global(streams_);
+    std::setlocale(LC_ALL, name_.c_str());
+  }
 
  private:
   std::string name_ = std::setlocale(LC_ALL, nullptr);
+  std::locale streams_;
 };
 
 PluginFacts facts_of(const fs::path& file, const std::string& id) {

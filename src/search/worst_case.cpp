@@ -22,7 +22,7 @@
 namespace clusterbench::search {
 namespace {
 
-constexpr int k_parts_of_path = 16;
+constexpr int k_parts_of_path = 16, k_most_raters = 16;
 // The same for any number of threads.
 constexpr int k_global_searches = 4, k_local_searches = 4;
 
@@ -106,7 +106,8 @@ class WorstCaseSearch {
  private:
   const scene::CameraProjection& projection() const { return path_.shots.front().projection; }
   FrameRater rater() const { return {config_, case_, request_.measure, rig_, projection()}; }
-  std::size_t threads() const { return static_cast<std::size_t>(std::max(1, request_.threads)); }
+  // Each has a method of its own, with its memory.
+  std::size_t threads() const { return static_cast<std::size_t>(std::clamp(request_.threads, 1, k_most_raters)); }
   int frames_to_rate() const { return static_cast<int>(path_.shots.size()) + request_.evaluations + request_.random; }
 
   std::optional<Walkable> floor_of(const scene::Scene& scene) const {
@@ -190,14 +191,18 @@ class WorstCaseSearch {
     return values;
   }
 
-  // A device that fails ends the search; what the tasks have found by then is kept.
+  // A device that fails ends the search; what the tasks have found by then is kept. After a signal its work may have
+  // been left behind, and has not failed.
   template <class Work>
   void each_task(std::size_t count, Work work) {
     ThreadPool(request_.threads).each(count, [&](std::size_t task) {
       try {
         work(task);
       } catch (const gpu::DeviceError& error) {
-        clock_.fail(error.message());
+        if (!stop_) clock_.fail(error.message());
+      } catch (...) {
+        has_failed_ = true;
+        throw;
       }
     });
   }
@@ -214,7 +219,7 @@ class WorstCaseSearch {
   void rate_all(FramesInTurn& frames, IsOver is_over) {
     each_task(threads(), [&](std::size_t /*thread*/) {
       std::optional<FrameRater> meter;
-      while (!is_over() && rate_next(frames, meter)) {
+      while (!has_failed_ && !is_over() && rate_next(frames, meter)) {
       }
     });
   }
@@ -279,7 +284,7 @@ class WorstCaseSearch {
   }
 
   // Searches that each rate frames one after the other. Threads that no search is left for rate frames to compare with
-  // until the last search ends.
+  // until the last search ends, unless they would take turns with it on a device.
   template <class Search>
   void each_search(std::size_t count, Search search) {
     std::atomic<std::size_t> next = 0, running = count;
@@ -290,7 +295,8 @@ class WorstCaseSearch {
         if (!meter) meter.emplace(rater());
         search(i, *meter);
       }
-      while (running > 0 && !clock_.has_failed() && !stop_ && rate_next(random_, meter)) {
+      const bool helps = !run::method_of(config_, case_).on_device;
+      while (helps && running > 0 && !has_failed_ && !stop_ && rate_next(random_, meter)) {
       }
     });
   }
@@ -430,7 +436,7 @@ class WorstCaseSearch {
     try {
       make_path();
     } catch (const gpu::DeviceError& error) {
-      clock_.fail(error.message());
+      if (!stop_) clock_.fail(error.message());
       out_.frames.clear();
       out_.buffers.clear();
       out_.theoretical_max.reset();
@@ -510,7 +516,8 @@ class WorstCaseSearch {
   const std::atomic<bool>& stop_;
   SearchProgress progress_;
   BestFrames best_;
-  FramesInTurn random_;  // to compare with
+  FramesInTurn random_;                   // to compare with
+  std::atomic<bool> has_failed_ = false;  // for good, and not the device alone
   WorstCase out_;
   int used_ = 0;
 };

@@ -394,7 +394,7 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     } catch (const assign::MethodError& error) {
       result.fault = error.message();
     } catch (const gpu::DeviceError& error) {
-      result.fault = error.message();
+      if (!stop) result.fault = error.message();  // a signal leaves a device's work behind
     }
   // Steps 0 .. best - 1 are not listed: the first listed step is the margin.
   result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundoffs(best);

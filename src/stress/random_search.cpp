@@ -113,9 +113,13 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
       reports[i] = check_setting(trials[i], methods);
       at_work.end(seed);
     });
-    const bool has_failed = std::ranges::any_of(reports, [](const std::optional<SettingReport>& report) {
+    const auto is_of_failed_device = [](const std::optional<SettingReport>& report) {
       return report && std::ranges::any_of(report->faults, &SettingFault::is_of_device);
-    });
+    };
+    const bool has_failed = std::ranges::any_of(reports, is_of_failed_device);
+    if (stop)  // a signal leaves a device's work behind, which is no fault
+      for (std::optional<SettingReport>& report : reports)
+        if (is_of_failed_device(report)) report.reset();
     if (has_failed) gpu::close_device();  // of which nothing is left now; the next settings open it anew
     // Stops at the first unfinished one, so that the first seed and the number identify the checked seeds.
     for (std::size_t i = 0; i < count && reports[i]; ++i)

@@ -165,7 +165,7 @@ class ReadingRuns(unittest.TestCase):
         result, done = run(document)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("frame_ns", result["cases"][0]["reading"])
-        self.assertIn("samples of a part of the pixels (reading.divisor)", done.stderr)
+        self.assertIn("Samples of a part of the pixels (reading.divisor)", done.stderr)
 
     def test_without_async_only_methods_on_the_device_have_whole_frames(self):
         document = config(assigners=["aabb-fast", "gpu-cells"], storages=["packed"])

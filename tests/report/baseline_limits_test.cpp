@@ -349,6 +349,19 @@ TEST(LightGate, fails_where_a_case_of_the_baseline_cannot_be_measured_any_more) 
   EXPECT_EQ(broken(), (Lines{"hall/walk/frustum 64px/brute-force: was measured in base.json (1 case) and not here: no "
                              "driver"}));
   EXPECT_EQ(broken("/aabb/"), Lines{}) << "what is filtered out is not missed";
+  Result packed = base;  // of lights in another precision, whose name follows the storage's
+  packed.cases[0].name += "/half";
+  next.skipped = {{"hall/walk/frustum 64px/brute-force/half", "no driver", {}}};
+  EXPECT_EQ(light_findings(next, {.base = &packed, .base_name = "base.json"}).broken.size(), 1u);
+  next.skipped = {{"hall/walk/frustum 64px/half", "no driver", {}}};
+  EXPECT_EQ(light_findings(next, {.base = &packed, .base_name = "base.json"}).broken, Lines{});
+  // A structure that has nothing of its grid is measured in one grid.
+  Result own = base;
+  own.cases[0].storage = "own";
+  next.cases.push_back(own.cases[0]);
+  next.cases.back().name = "hall/walk/another grid/brute-force/own";
+  next.skipped = {{"hall/walk/frustum 64px/brute-force", "measured once", {}}};
+  EXPECT_EQ(light_findings(next, {.base = &own, .base_name = "base.json"}).broken, Lines{});
 }
 
 TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {

@@ -97,5 +97,30 @@ TEST(Compare, cold_times_are_not_compared_with_warm_ones) {
   EXPECT_FALSE(compared(json_of(next), json_of(next), 0.02)["left_out"].contains("times"));
 }
 
+// Whose settings are those of its parts.
+TEST(Compare, merged_results_are_compared_by_the_settings_of_their_parts) {
+  run::Result cold = result_by_hand();
+  for (run::CaseResult& case_result : cold.cases) case_result.timing->is_cold = true;
+  const auto merged = [&](const Json& sizes) {
+    Json json = json_of(cold);
+    Json parts = Json::array();
+    for (const Json& mib : sizes) {
+      Json part = json["config"];
+      part["timing"]["sweep_mib"] = mib;
+      parts.push_back(part);
+    }
+    json["config"]["merged"] = parts;
+    json["config"].erase("timing");
+    return json;
+  };
+  const auto left_out = [&](const Json& base, const Json& next) { return compared(base, next, 0.02)["left_out"]; };
+  EXPECT_TRUE(holds(left_out(merged({64, 64}), merged({128, 128}))["times"], "/config/timing/sweep_mib is 64 and 128"));
+  EXPECT_FALSE(left_out(merged({64, 64}), merged({64, 64})).contains("times"));
+  EXPECT_FALSE(left_out(merged({64, 128}), merged({128, 64})).contains("times")) << "the order is none";
+  Json again = merged({64});
+  again["config"] = {{"merged", {merged({64, 128})["config"], again["config"]["merged"][0]}}};
+  EXPECT_FALSE(left_out(merged({64, 128}), again).contains("times")) << "nor is how often they were merged";
+}
+
 }  // namespace
 }  // namespace clusterbench::report

@@ -237,6 +237,23 @@ TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
   EXPECT_EQ(comparison["cases"][0]["hint"], "none") << "times of the processor are compared all the same";
 }
 
+TEST(DeviceCases, on_another_device_are_named_beside_those_on_the_same_one) {
+  Json base = json_of(with_device(2000.0));
+  base["cases"].push_back(base["cases"][2]);
+  base["cases"][3]["id"] = "device 2";
+  base["cases"][3]["name"] = "second";
+  Json next = base;
+  next["cases"][3]["device"]["device"] = "Other card";
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_TRUE(comparison["cases"][2].contains("hint"));
+  EXPECT_FALSE(comparison["cases"][3].contains("hint"));
+  EXPECT_TRUE(
+      testing::holds(comparison["warnings"],
+                     "times of methods on a device are not compared: the base ran on Card with cold caches, the "
+                     "new result on Other card with cold caches"))
+      << comparison["warnings"];
+}
+
 // An interval between few launches is wide for its error: Student's t has its tails, and 2 degrees of freedom are
 // not 30.
 TEST(DeviceCases, with_intervals_between_launches_are_compared_by_as_many_degrees_of_freedom) {

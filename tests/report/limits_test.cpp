@@ -19,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Lines = std::vector<std::string>;
+using result::Result;
 
 Json case_with_budget_figures() {
   return Json::parse(R"({"name": "hall/walk/frustum/bounds/packed",
@@ -115,7 +116,6 @@ TEST(Limits, what_no_case_has_fails) {
              "methods of visible surfaces have none)"}));
 }
 
-// Lists that lack lights are short; their overshade would pass any budget.
 // However many lights a cell has, such lists are no longer than their room.
 TEST(Limits, of_the_longest_list_are_not_held_by_lists_that_a_method_has_cut) {
   Json cut = case_with_budget_figures();  // whose lists are no longer than 64, and 3 pairs are dropped
@@ -125,10 +125,17 @@ TEST(Limits, of_the_longest_list_are_not_held_by_lists_that_a_method_has_cut) {
             (Lines{"'longest > 64' could not be checked for hall/walk/frustum/bounds/packed: its lists end at 64 since "
                    "the method itself dropped 3 pairs; hold dropped, and see `clusterbench size`"}));
   EXPECT_EQ(findings_of("longest > 63", cut).broken.size(), 1u);
+  EXPECT_EQ(findings_of("longest < 10", cut).broken, Lines{}) << "which the cell with most lights breaks no more";
+  const Result base = test::result_of(Json{{"cases", Json::array({cut})}});
+  const BaselineCases cases(base, base, "", "base.json");
+  const config::LimitRule rules[] = {config::limit_rule("longest > +3 %", "", "--fail-if")};
+  ASSERT_EQ(limit_findings(base, rules, &cases).broken.size(), 1u);
+  EXPECT_NE(limit_findings(base, rules, &cases).broken[0].find("could not be checked"), std::string::npos);
   cut["buffers"]["overflow"]["dropped_pairs"] = 0;
   EXPECT_EQ(findings_of("longest > 64", cut).broken, Lines{});
 }
 
+// Lists that lack lights are short; their overshade would pass any budget.
 TEST(Limits, the_overshade_of_samples_that_lack_lights_is_none) {
   Json lacking = case_with_budget_figures();
   lacking["samples"]["opaque"] = {{"missed", 412}, {"needed", 1000}, {"overshade", nullptr}, {"unlit", 0.412}};

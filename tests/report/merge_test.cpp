@@ -75,6 +75,27 @@ TEST(Merge, costs_of_other_models_are_refused_and_the_model_stays_with_the_front
   EXPECT_NE(refusal({part, other}).find("b.json: /config/rank_by: is not that of a.json"), std::string::npos);
 }
 
+TEST(Merge, cold_times_after_sweeps_of_two_sizes_are_refused) {
+  const auto part = [](const std::string& id, const char* caches, const Json& mib) {
+    NamedPart out = shard(id + ".json", id);
+    out.result.cases[0].timing->caches = caches;
+    out.result.config["timing"]["sweep_mib"] = mib;
+    return out;
+  };
+  EXPECT_EQ(refusal({part("slow", "cold", 64), part("fast", "cold", 64)}), "accepted");
+  EXPECT_EQ(refusal({part("slow", "warm", 64), part("fast", "cold", 128)}), "accepted") << "one is swept";
+  EXPECT_NE(refusal({part("slow", "cold", 64), part("fast", "cold", 128)})
+                .find("fast.json: /config/timing/sweep_mib: is 128, and that of slow.json is 64"),
+            std::string::npos);
+  EXPECT_NE(refusal({part("slow", "cold", Json()), part("fast", "cold", 128)}).find("slow.json is null"),
+            std::string::npos);
+  NamedPart counted = shard("counted.json", "slow");
+  counted.result.cases.clear();
+  EXPECT_NE(refusal({counted, part("slow", "cold", 64), part("fast", "cold", 128)}).find("slow.json is 64"),
+            std::string::npos)
+      << "beside a part without times, too";
+}
+
 TEST(Merge, a_case_of_two_parts_is_a_conflict_that_names_both) {
   const std::string said = refusal({shard("a.json", "slow"), shard("b.json", "fast"), shard("c.json", "fast")});
   EXPECT_NE(said.find("c.json: /cases: has id 'fast' (hall/walk/frustum 64px/aabb/packed), and b.json has it, too; a "

@@ -101,7 +101,7 @@ TEST(ReadingTable, of_a_part_of_the_pixels_has_no_frame) {
   EXPECT_FALSE(json["cases"][0]["reading"].contains("frame_ns"));
   const std::string table = reading_table(test::result_of(json));
   EXPECT_EQ(table.find("Cheapest"), std::string::npos) << table;
-  EXPECT_NE(table.find("samples of a part of the pixels (reading.divisor)"), std::string::npos) << table;
+  EXPECT_NE(table.find("Samples of a part of the pixels (reading.divisor)"), std::string::npos) << table;
   result.config["reading"]["divisor"] = 1;
   EXPECT_TRUE(testing::json_of(result)["cases"][0]["reading"].contains("frame_ns"));
 }

@@ -35,7 +35,7 @@ result::Json reading_of(const result::Json& config) {
 }
 
 std::optional<double> frame_ns(const Case& result_case, const result::Json& config) {
-  if (reads_a_part(*result_case.reading, config) || is_converted_untimed(result_case)) return {};
+  if (reads_a_part(result_case.reading->set, config) || is_converted_untimed(result_case)) return {};
   const std::optional<double> read_us = result::figure_of(result_case, "reading_us");
   const result::Json reading = reading_of(config);
   const bool is_given = reading.is_object() && reading.contains("async");
@@ -50,8 +50,8 @@ std::optional<double> frame_ns(const Case& result_case, const result::Json& conf
 
 }  // namespace
 
-bool reads_a_part(const result::Reading& reading, const result::Json& config) {
-  const bool reads_surfaces = reading.set == "opaque" || reading.set == "transparent" || reading.set == "mirror";
+bool reads_a_part(const std::string& set, const result::Json& config) {
+  const bool reads_surfaces = set == "opaque" || set == "transparent" || set == "mirror";
   const result::Json request = reading_of(config);
   return reads_surfaces && request.is_object() && request.value("divisor", 1) != 1;
 }

@@ -1,14 +1,15 @@
 #pragma once
 // The time of a frame whose samples read their lights on a device: assignment, upload and reading.
 
+#include <string>
 #include <vector>
 
 #include "result/case.h"
 
 namespace clusterbench::report {
 
-// Whether it reads some of a frame's pixels alone, so that no sum with it is of a frame.
-bool reads_a_part(const result::Reading& reading, const result::Json& config);
+// Whether samples of this set are of some of a frame's pixels alone, so that no sum with their reading is of a frame.
+bool reads_a_part(const std::string& set, const result::Json& config);
 // A device's time is that of its own structure or of packed lists. In another storage the same lists were put by the
 // host, untimed.
 bool is_converted_untimed(const result::Case& result_case);

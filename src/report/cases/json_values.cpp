@@ -1,6 +1,6 @@
 #include "report/cases/json_values.h"
 
-#include <algorithm>
+#include <set>
 
 namespace clusterbench::report {
 namespace {
@@ -14,18 +14,22 @@ const Json* value_at(const Json& from, const std::string& pointer) {
   return from.contains(location) && !from[location].is_null() ? &from[location] : nullptr;
 }
 
+namespace {
+
+void add_setting(const Json& config, const std::string& pointer, std::set<Json>& values) {
+  if (const Json* parts = value_at(config, "/merged"))
+    for (const Json& part : *parts) add_setting(part, pointer, values);
+  else if (const Json* value = value_at(config, pointer))
+    values.insert(*value);
+}
+
+}  // namespace
+
 Json setting_of(const Json& config, const std::string& pointer) {
-  const Json* parts = value_at(config, "/merged");
-  if (parts == nullptr) {
-    const Json* value = value_at(config, pointer);
-    return value == nullptr ? Json() : *value;
-  }
-  Json values = Json::array();
-  for (const Json& part : *parts) {
-    const Json value = setting_of(part, pointer);
-    if (std::ranges::find(values, value) == values.end()) values.push_back(value);
-  }
-  return values.size() == 1 ? values.front() : values;
+  std::set<Json> values;
+  add_setting(config, pointer, values);
+  if (values.empty()) return {};
+  return values.size() == 1 ? *values.begin() : Json(values);
 }
 
 std::optional<double> number_at(const Json& from, const std::string& pointer) {

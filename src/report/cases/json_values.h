@@ -13,8 +13,8 @@ namespace clusterbench::report {
 // nullptr if it is missing or null.
 const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const std::string& pointer);
 
-// The value of a result's configuration; of a merged one that of all its parts, as a list where they differ. Null where
-// there is none.
+// The value of a result's configuration; of a merged one that of all its parts that have it, as a sorted list where
+// they differ. Null where there is none.
 nlohmann::ordered_json setting_of(const nlohmann::ordered_json& config, const std::string& pointer);
 
 // None if it is not a number.

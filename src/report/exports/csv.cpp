@@ -35,7 +35,7 @@ std::string exact_number(double value) {
 }
 
 bool has_column(const Figure& figure, const ExportResult& result) {
-  return figure.is_headline || result.all;
+  return figure.is_headline || result.all || (figure.is_of_device && result.has_devices);
 }
 
 // "assign_time_ns"; the unit is added only if the name does not contain it.

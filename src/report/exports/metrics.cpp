@@ -42,7 +42,7 @@ std::vector<const Figure*> export_figures() {
 std::vector<Measured> measured(const Case& result_case, bool all) {
   std::vector<Measured> out;
   for (const Figure* figure : export_figures())
-    if (figure->is_headline || all)
+    if (figure->is_headline || figure->is_of_device || all)
       if (const std::optional<Measured> found = measured_figure(result_case, *figure)) out.push_back(*found);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -70,7 +71,7 @@ class Changes {
   Lines compared() const {
     Lines names{"lights"};
     for (const char* figure : k_of_case)
-      if (figure != std::string_view(k_instructions) || has_instructions_) names.emplace_back(figure);
+      if (compared_.contains(figure)) names.emplace_back(figure);
     return names;
   }
 
@@ -97,7 +98,7 @@ class Changes {
       const std::optional<FigureValue> was = figure_value(before, figure), is = figure_value(now, figure);
       if (figure == std::string_view(k_instructions) && (!was || !baseline_.obstacle_to_instructions(now).empty()))
         continue;
-      has_instructions_ = has_instructions_ || (is && figure == std::string_view(k_instructions));
+      if (is && was) compared_.insert(figure);
       if (is && !was) add_once(figure, unknown_);
       if (!is || !was || is->value() == was->value()) continue;
       const double percent = percent_change({was->value()}, {is->value()});
@@ -117,7 +118,7 @@ class Changes {
   Lines views_, cases_, unknown_;
   std::vector<const Case*> not_in_base_;
   std::size_t unchanged_ = 0;
-  bool has_instructions_ = false;
+  std::set<std::string_view> compared_;  // figures that a case has in both
 };
 
 }  // namespace

@@ -144,17 +144,42 @@ void add_gone_views(const Result& result, const LightGate& gate, LimitFindings& 
                               "baseline again, or leave it out (--filter)");
 }
 
-// Cases of the base that the configuration still has, and that could not be measured: a driver that has gone.
+std::vector<std::string_view> parts_of(std::string_view name) {
+  std::vector<std::string_view> parts;
+  for (std::size_t slash = name.find('/'); slash != std::string_view::npos; slash = name.find('/')) {
+    parts.push_back(name.substr(0, slash));
+    name.remove_prefix(slash + 1);
+  }
+  parts.push_back(name);
+  return parts;
+}
+
+// Of a skipped combination: its parts in their order, of which others (the storage) may be left out.
+bool is_of(const std::string& case_name, const std::string& skipped) {
+  const std::vector<std::string_view> all = parts_of(case_name), some = parts_of(skipped);
+  std::size_t found = 0;
+  for (const std::string_view part : all) found += found < some.size() && some[found] == part ? 1 : 0;
+  constexpr std::size_t k_up_to_method = 4;  // scene, camera, grid and method
+  const std::size_t first = std::min(k_up_to_method, some.size());
+  return found == some.size() && all.size() >= first && std::equal(some.begin(), some.begin() + first, all.begin());
+}
+
+// Cases of the base that the configuration still has, and that could not be measured: a driver that has gone. A
+// structure that has nothing of its grid is measured in one of them.
 void add_left_out(const Result& result, const LightGate& gate, LimitFindings& findings) {
   const Pattern wanted(gate.filter, "--filter");
+  const auto is_measured = [&](const Case& base_case) {
+    return std::ranges::any_of(result.cases, [&](const Case& one) {
+      const bool is_same_view = one.scene == base_case.scene && one.camera == base_case.camera &&
+                                one.viewport == base_case.viewport && one.assigner.label == base_case.assigner.label;
+      return one.name == base_case.name ||
+             (is_same_view && one.storage == run::k_own_structure && base_case.storage == run::k_own_structure);
+    });
+  };
   for (const result::Skipped& skipped : result.skipped) {
-    const auto is_part = [&](const Case& base_case) {
-      const bool begins = base_case.name.starts_with(skipped.name) && base_case.preset == skipped.preset;
-      return begins && (base_case.name.size() == skipped.name.size() || base_case.name[skipped.name.size()] == '/');
-    };
     const auto is_gone = [&](const Case& base_case) {
-      return is_part(base_case) && is_selected(wanted, base_case) &&
-             std::ranges::find(result.cases, base_case.name, &Case::name) == result.cases.end();
+      return base_case.preset == skipped.preset && is_of(base_case.name, skipped.name) &&
+             is_selected(wanted, base_case) && !is_measured(base_case);
     };
     const auto count = std::ranges::count_if(gate.base->cases, is_gone);
     if (count == 0) continue;

@@ -109,7 +109,9 @@ class RuleCheck {
   // Lists that a method makes with room for some lights alone are no longer than that, however many lights a cell has.
   bool add_cut_lists(const Case& result_case, double longest) {
     const std::uint64_t dropped = result_case.buffers.overflow.dropped_pairs;
-    if (rule_.figure != "longest" || result_case.storage != run::k_own_structure || dropped == 0) return false;
+    const bool is_least = rule_.side == config::LimitRule::Side::below;  // a cell with more lights breaks it no more
+    if (rule_.figure != "longest" || is_least || result_case.storage != run::k_own_structure || dropped == 0)
+      return false;
     findings_.broken.push_back(quoted_ + " could not be checked for " + shown(result_case.name) +
                                ": its lists end at " + config::budget_number(longest) +
                                " since the method itself dropped " + number_of(dropped, "pair") +
@@ -167,7 +169,7 @@ class RuleCheck {
           other_setting = setting;
         else if (samples_of(*result_case, *now) != samples_of(*before, *then))
           add_other_samples(name, samples_of(*result_case, *now), samples_of(*before, *then));
-        else
+        else if (!add_cut_lists(*result_case, now->value()) && !add_cut_lists(*before, then->value()))
           add_verdict_on_change(*result_case, *now, *then);
       }
       if (has_none) without.push_back(name);

@@ -30,11 +30,24 @@ result::Tool without_target(result::Tool tool) {
   return tool;
 }
 
-// Of cold times. Null without them, and in older results.
-Json swept_of(const result::Result& result) {
-  const bool is_cold = std::ranges::any_of(
-      result.cases, [](const result::Case& one) { return one.timing && one.timing->caches == "cold"; });
-  return is_cold ? setting_of(result.config, "/timing/sweep_mib") : Json();
+bool has_cold_times(const result::Result& result) {
+  return std::ranges::any_of(result.cases,
+                             [](const result::Case& one) { return one.timing && one.timing->caches == "cold"; });
+}
+
+// Null: by the caches of the machine.
+void check_sweeps(const std::vector<NamedPart>& parts) {
+  const NamedPart* first = nullptr;
+  for (const NamedPart& part : parts) {
+    if (!has_cold_times(part.result)) continue;
+    if (first == nullptr) first = &part;
+    const Json swept = setting_of(first->result.config, "/timing/sweep_mib"),
+               now = setting_of(part.result.config, "/timing/sweep_mib");
+    if (swept != now)
+      throw Error(part.file, "/config/timing/sweep_mib",
+                  "is " + now.dump() + ", and that of " + first->file + " is " + swept.dump() +
+                      ": cold times of both have no place in one result");
+  }
 }
 
 void check_origin(const NamedPart& first, const NamedPart& next) {
@@ -45,11 +58,6 @@ void check_origin(const NamedPart& first, const NamedPart& next) {
   if (!are_same(without_target(first.result.tool), without_target(next.result.tool)))
     throw Error(next.file, "/tool",
                 "is not that of " + first.file + ": times and instructions of both have no place in one result");
-  const Json swept = swept_of(first.result), next_swept = swept_of(next.result);
-  if (!swept.is_null() && !next_swept.is_null() && swept != next_swept)
-    throw Error(next.file, "/config/timing/sweep_mib",
-                "is " + next_swept.dump() + ", and that of " + first.file + " is " + swept.dump() +
-                    ": cold times of both have no place in one result");
 }
 
 // Appends items to `all` that it does not contain yet. `key` identifies an item, `key_name` is its name in messages,
@@ -153,6 +161,7 @@ std::optional<result::Device> common_device(const std::vector<NamedPart>& parts)
 result::Result merged(std::vector<NamedPart> parts) {
   const bool is_sweep = is_any_shard(parts);
   if (is_sweep) order_shards(parts);
+  check_sweeps(parts);
   const result::Result& first = parts.front().result;
   result::Result out;
   out.schema_version = first.schema_version;

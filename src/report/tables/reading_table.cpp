@@ -25,11 +25,16 @@ struct ReadingLine {
   std::size_t set_order, walk_order;
   // Loses no light and fails nothing: else short lists would count as an advantage.
   bool is_sound;
+  bool is_part;  // of the pixels
 
   bool is_first() const {  // that of the figures
     return set->set == result_case->reading->set && walk->walk == result_case->reading->walk;
   }
-  std::optional<double> frame_ns() const { return is_first() ? result_case->reading->frame_ns : std::nullopt; }
+  // Older results have sums that are of no frame.
+  std::optional<double> frame_ns() const {
+    return is_first() && !is_part && !is_converted_untimed(*result_case) ? result_case->reading->frame_ns
+                                                                         : std::nullopt;
+  }
   bool has_lists() const { return result_case->storage != run::k_own_structure; }
 };
 
@@ -57,7 +62,8 @@ std::string line_name(const ReadingLine& line) {
   return method_name(*line.result_case) + " / " + storage_name(*line.result_case);
 }
 
-std::vector<ReadingLine> lines_of(const std::vector<const Case*>& cases, const std::string& device) {
+std::vector<ReadingLine> lines_of(const std::vector<const Case*>& cases, const std::string& device,
+                                  const result::Json& config) {
   std::vector<ReadingLine> lines;
   bool is_software = false;
   for (const Case* in_block : cases) {
@@ -67,7 +73,8 @@ std::vector<ReadingLine> lines_of(const std::vector<const Case*>& cases, const s
     const std::vector<SetReading>& sets = result_case.reading->sets;
     for (std::size_t set = 0; set < sets.size(); ++set)
       for (std::size_t walk = 0; walk < sets[set].walks.size(); ++walk)
-        lines.push_back({&result_case, &sets[set], &sets[set].walks[walk], set, walk, is_sound(result_case)});
+        lines.push_back({&result_case, &sets[set], &sets[set].walks[walk], set, walk, is_sound(result_case),
+                         reads_a_part(sets[set].set, config)});
   }
   const bool is_by_frame = have_frames(lines);
   const auto key = [&](const ReadingLine& line) {
@@ -147,8 +154,8 @@ std::string fault_text(const std::vector<ReadingLine>& lines) {
 }
 
 std::string reading_block(const std::string& block, const std::vector<ReadingLine>& lines) {
-  const auto has_frame = [](const ReadingLine& line) { return line.result_case->reading->frame_ns.has_value(); };
-  const bool has_frames = std::ranges::any_of(lines, has_frame);
+  const bool has_frames =
+      std::ranges::any_of(lines, [](const ReadingLine& line) { return line.frame_ns().has_value(); });
   Cells headings{"",        "structure", "samples", "walk",   "read us", "±",
                  "x exact", "x nothing", "cold us", "lights", "reads",   "bytes"};
   if (has_frames) headings.push_back("frame us");
@@ -181,14 +188,14 @@ std::string reading_table(const result::Result& result) {
       std::string blocks;
       bool is_software = false;
       for (const CaseBlock& block : blocks_of(result.cases, scene)) {
-        const std::vector<ReadingLine> lines = lines_of(block.cases, device);
+        const std::vector<ReadingLine> lines = lines_of(block.cases, device, result.config);
         if (lines.empty()) continue;
         blocks += reading_block(block.name, lines);
         is_software = lines.front().result_case->reading->software;
         for (const ReadingLine& line : lines) {
           has_frames |= line.frame_ns().has_value();
           has_unsound |= !line.is_sound;
-          is_part |= reads_a_part(*line.result_case->reading, result.config);
+          is_part |= line.is_part;
           is_converted |= is_converted_untimed(*line.result_case);
         }
       }
@@ -209,8 +216,7 @@ std::string reading_table(const result::Result& result) {
          (has_frames && is_converted ? "No frame where lists of the device are in another storage: making that is not "
                                        "timed.\n"
                                      : "") +
-         (is_part ? "These are samples of a part of the pixels (reading.divisor), so that no time is a frame's.\n"
-                  : "") +
+         (is_part ? "Samples of a part of the pixels (reading.divisor) have no frame.\n" : "") +
          (has_unsound ? "!: lacks lights that are needed (lost, dropped or culled), which makes lists short, fails, or "
                         "does not promise to have all\nlights: in no sentence, and last where lines are sorted.\n"
                       : "");

@@ -81,7 +81,7 @@ struct Figure {
   std::string_view export_name = {};  // "": `name`
   bool is_headline = false;           // exported by default
   bool is_kept = false;               // in histories, with the headline; derived times are in none
-  bool is_of_device = false;          // histories tell devices apart by it, not processors
+  bool is_of_device = false;          // exported where a device is timed; histories tell devices apart by it
 
   std::string_view exported_as() const { return export_name.empty() ? name : export_name; }
   std::string_view named_unit() const { return is_in_us ? "us" : unit; }

@@ -371,6 +371,7 @@ std::vector<ReadCase> reading_pass(const config::Config& config, const SceneData
   if (const std::string obstacle = gpu::reading_obstacle(); !obstacle.empty()) return skip_all(obstacle);
   const std::string failure = failure_of([&] { out = read_group(config, data, group, path, stop); });
   if (failure.empty()) return out;
+  if (stop) return {};  // it may have failed for that
   if (group.cases.size() == 1) return skip_all(failure);
   out.clear();
   for (const CasePlan& case_plan : group.cases) {
