@@ -6,7 +6,7 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { chart, chartWidth, multiples, Plot } from "./plots.ts";
+import { chart, chartWidth, mostPanels, multiples, Plot, panelsLeftOut } from "./plots.ts";
 import type { DeviceTimes, Reading, SetReading, Time, WalkReading } from "./result.ts";
 import { ofRuns } from "./runs.ts";
 import { logExtent } from "./speed_error.ts";
@@ -16,7 +16,6 @@ import type { Section, View } from "./view.ts";
 type Timed = { aCase: Case; times: DeviceTimes };
 type Read = { aCase: Case; reading: Reading; set: SetReading; walk: WalkReading };
 
-const mostPanels = 12;
 const us = ({ median }: Time) => format.inUs(median);
 const timeColumn = (label: string, of: (time: Timed) => Time, about?: string): Column<Timed> => ({
   label,
@@ -190,9 +189,7 @@ function timedFigure(view: View): HTMLElement | null {
     lead:
       "From uploaded lights to finished lists, by the device's clock; never ranked beside times of the processor. Left is faster; fewer pairs are tighter lists, within one grid. Bars are 95 % intervals." +
       (rows.some(isSoftware) ? softwareNote : "") +
-      (panels.length > mostPanels
-        ? ` The first ${mostPanels} of ${panels.length}; choose a scene above for the others.`
-        : ""),
+      panelsLeftOut(panels.length),
     ...(panels.length > 0
       ? {
           chart: multiples(

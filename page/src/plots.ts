@@ -65,6 +65,11 @@ export function chart(says: string, options: Plot.PlotOptions): Element {
   return drawn;
 }
 
+export const mostPanels = 12;
+// Behind a figure's lead, where not all panels are drawn.
+export const panelsLeftOut = (count: number): string =>
+  count > mostPanels ? ` The first ${mostPanels} of ${count}; choose a scene above for the others.` : "";
+
 // The same chart for several things, each under its name.
 export function multiples(panels: { title: string; chart: Element }[]): HTMLElement {
   return h(

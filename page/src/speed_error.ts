@@ -8,7 +8,7 @@ import * as format from "./format.ts";
 import { hasMachines, machineKey } from "./machines.ts";
 import type { Case } from "./model.ts";
 import { placed, placements } from "./names.ts";
-import { chart, chartWidth, multiples, Plot } from "./plots.ts";
+import { chart, chartWidth, mostPanels, multiples, Plot, panelsLeftOut } from "./plots.ts";
 import type { FigureName, Maybe } from "./result.ts";
 import type { Section, View } from "./view.ts";
 
@@ -51,8 +51,6 @@ interface Point {
   us: number;
   error: number;
 }
-
-const mostPanels = 12;
 
 export function points(cases: Case[], measure: Measure): Point[] {
   return cases.flatMap((aCase) => {
@@ -275,10 +273,6 @@ export const speedErrorSection: Section = (view, redraw) => {
     label,
     look,
   }));
-  const more =
-    scenes.length > mostPanels
-      ? ` The first ${mostPanels} of ${scenes.length}; choose a scene above for the others.`
-      : "";
   return h(
     "section",
     { id: "speed" },
@@ -286,7 +280,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${capitalised(measure.label)}: ${wordsOf(view, measure)}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${isOfSeveral ? " Panels of two machines have axes of their own: their times are not compared." : ""}${more}`,
+      lead: `Down and left is better. ${capitalised(measure.label)}: ${wordsOf(view, measure)}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${isOfSeveral ? " Panels of two machines have axes of their own: their times are not compared." : ""}${panelsLeftOut(scenes.length)}`,
       controls: [control],
       chart: multiples(panels),
       methods: keys,

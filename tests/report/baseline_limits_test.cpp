@@ -355,13 +355,18 @@ TEST(LightGate, fails_where_a_case_of_the_baseline_cannot_be_measured_any_more) 
   EXPECT_EQ(light_findings(next, {.base = &packed, .base_name = "base.json"}).broken.size(), 1u);
   next.skipped = {{"hall/walk/frustum 64px/half", "no driver", {}}};
   EXPECT_EQ(light_findings(next, {.base = &packed, .base_name = "base.json"}).broken, Lines{});
-  // A structure that has nothing of its grid is measured in one grid.
-  Result own = base;
-  own.cases[0].storage = "own";
-  next.cases.push_back(own.cases[0]);
-  next.cases.back().name = "hall/walk/another grid/brute-force/own";
-  next.skipped = {{"hall/walk/frustum 64px/brute-force", "measured once", {}}};
-  EXPECT_EQ(light_findings(next, {.base = &own, .base_name = "base.json"}).broken, Lines{});
+  // A structure that has nothing of its grid is measured in one grid; others are lost where theirs is skipped.
+  for (const char* method : {"bvh", "z-binning"}) {
+    Result own = base;
+    own.cases[0].storage = "own";
+    own.cases[0].assigner.name = method;
+    Result elsewhere = own;
+    elsewhere.cases[0].name = "hall/walk/another grid/brute-force/own";
+    elsewhere.skipped = {{"hall/walk/frustum 64px/brute-force", "a reason", {}}};
+    EXPECT_EQ(light_findings(elsewhere, {.base = &own, .base_name = "base.json"}).broken.size(),
+              std::string_view(method) == "bvh" ? 0u : 1u)
+        << method;
+  }
 }
 
 TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {

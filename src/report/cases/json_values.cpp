@@ -25,7 +25,7 @@ void add_setting(const Json& config, const std::string& pointer, std::set<Json>&
 
 }  // namespace
 
-Json setting_of(const Json& config, const std::string& pointer) {
+Json setting_of_parts(const Json& config, const std::string& pointer) {
   std::set<Json> values;
   add_setting(config, pointer, values);
   if (values.empty()) return {};

@@ -15,7 +15,7 @@ const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const
 
 // The value of a result's configuration; of a merged one that of all its parts that have it, as a sorted list where
 // they differ. Null where there is none.
-nlohmann::ordered_json setting_of(const nlohmann::ordered_json& config, const std::string& pointer);
+nlohmann::ordered_json setting_of_parts(const nlohmann::ordered_json& config, const std::string& pointer);
 
 // None if it is not a number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);

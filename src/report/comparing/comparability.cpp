@@ -32,7 +32,7 @@ std::optional<std::string> caches_of_times(const Result& result) {
 Json facts_of(const Result& result) {
   Json timing = Json::object();
   for (const char* key : {"frames", "sweep_mib"})
-    timing[key] = setting_of(result.config, std::string("/timing/") + key);
+    timing[key] = setting_of_parts(result.config, std::string("/timing/") + key);
   return {{"machine", result::to_json(result.machine)},
           {"tool", result::to_json(result.tool)},
           {"config", {{"timing", timing}}}};

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
+#include "assign/contract/assigner.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/case_filter.h"
@@ -11,6 +13,7 @@
 #include "report/cases/nothing_seen.h"
 #include "report/cases/scene_lights.h"
 #include "result/at.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -154,8 +157,9 @@ std::vector<std::string_view> parts_of(std::string_view name) {
   return parts;
 }
 
-// Of a skipped combination: its parts in their order, of which others (the storage) may be left out.
-bool is_of(const std::string& case_name, const std::string& skipped) {
+// Whether a skipped combination has the case. Its name has parts of the case's name in their order, without those that
+// all skipped cases do not share: the storage.
+bool is_among_skipped(const std::string& case_name, const std::string& skipped) {
   const std::vector<std::string_view> all = parts_of(case_name), some = parts_of(skipped);
   std::size_t found = 0;
   for (const std::string_view part : all) found += found < some.size() && some[found] == part ? 1 : 0;
@@ -164,21 +168,26 @@ bool is_of(const std::string& case_name, const std::string& skipped) {
   return found == some.size() && all.size() >= first && std::equal(some.begin(), some.begin() + first, all.begin());
 }
 
-// Cases of the base that the configuration still has, and that could not be measured: a driver that has gone. A
-// structure that has nothing of its grid is measured in one of them.
+// A structure that has nothing of its grid is measured in one grid, and skipped in the others.
+bool is_measured_in_another_grid(const Result& result, const Case& base_case) {
+  const assign::AssignerDescriptor* method = assign::find_assigner(base_case.assigner.name);
+  if (method == nullptr || !method->own_without_grid || base_case.storage != run::k_own_structure) return false;
+  return std::ranges::any_of(result.cases, [&](const Case& one) {
+    return one.scene == base_case.scene && one.camera == base_case.camera && one.viewport == base_case.viewport &&
+           one.assigner.label == base_case.assigner.label && one.storage == base_case.storage;
+  });
+}
+
+// Cases of the base that the configuration still has, and that could not be measured: a driver that has gone.
 void add_left_out(const Result& result, const LightGate& gate, LimitFindings& findings) {
   const Pattern wanted(gate.filter, "--filter");
   const auto is_measured = [&](const Case& base_case) {
-    return std::ranges::any_of(result.cases, [&](const Case& one) {
-      const bool is_same_view = one.scene == base_case.scene && one.camera == base_case.camera &&
-                                one.viewport == base_case.viewport && one.assigner.label == base_case.assigner.label;
-      return one.name == base_case.name ||
-             (is_same_view && one.storage == run::k_own_structure && base_case.storage == run::k_own_structure);
-    });
+    return std::ranges::find(result.cases, base_case.name, &Case::name) != result.cases.end() ||
+           is_measured_in_another_grid(result, base_case);
   };
   for (const result::Skipped& skipped : result.skipped) {
     const auto is_gone = [&](const Case& base_case) {
-      return base_case.preset == skipped.preset && is_of(base_case.name, skipped.name) &&
+      return base_case.preset == skipped.preset && is_among_skipped(base_case.name, skipped.name) &&
              is_selected(wanted, base_case) && !is_measured(base_case);
     };
     const auto count = std::ranges::count_if(gate.base->cases, is_gone);

@@ -28,8 +28,8 @@ struct LightGate {
 // Reports scenes without lights or with dark ones only, cameras that never see a shining light, and scenes whose lights
 // differ from the baseline's: broken, or a warning if that is allowed. Also broken if budgets have no case to apply to:
 // scenes and cameras without any measured case, those of the baseline that the result does not have, and cases of the
-// baseline that were left out here since they cannot be measured. A camera path
-// that differs from the baseline's is a warning.
+// baseline that were left out here since they cannot be measured. A camera path that differs from the baseline's is a
+// warning.
 LimitFindings light_findings(const result::Result& result, const LightGate& gate);
 
 }  // namespace clusterbench::report

@@ -98,7 +98,7 @@ class RuleCheck {
         if (const std::optional<FigureValue> found = figure_value(*result_case, figure)) {
           has_none = false;
           const bool is_broken = rule_.is_broken_by(found->value());
-          if (is_broken || !add_cut_lists(*result_case, found->value()))
+          if (!add_cut_lists(*result_case, found->value(), is_broken))
             add_verdict(*result_case, is_broken, found->value(), is_text(rule_, *found));
         }
       if (has_none) without.push_back(result_case->name);
@@ -106,11 +106,14 @@ class RuleCheck {
     add_without(without);
   }
 
-  // Lists that a method makes with room for some lights alone are no longer than that, however many lights a cell has.
-  bool add_cut_lists(const Case& result_case, double longest) {
+  // Lists that a method makes with room for some lights alone are no longer than that, however many lights a cell has:
+  // only that they are too long, or long enough, is certain. False if the budget can be checked all the same.
+  bool add_cut_lists(const Case& result_case, double longest, bool is_broken) {
+    using Side = config::LimitRule::Side;
     const std::uint64_t dropped = result_case.buffers.overflow.dropped_pairs;
-    const bool is_least = rule_.side == config::LimitRule::Side::below;  // a cell with more lights breaks it no more
-    if (rule_.figure != "longest" || is_least || result_case.storage != run::k_own_structure || dropped == 0)
+    const bool is_certain =
+        !rule_.is_relative && ((rule_.side == Side::above && is_broken) || (rule_.side == Side::below && !is_broken));
+    if (rule_.figure != "longest" || is_certain || result_case.storage != run::k_own_structure || dropped == 0)
       return false;
     findings_.broken.push_back(quoted_ + " could not be checked for " + shown(result_case.name) +
                                ": its lists end at " + config::budget_number(longest) +
@@ -169,7 +172,7 @@ class RuleCheck {
           other_setting = setting;
         else if (samples_of(*result_case, *now) != samples_of(*before, *then))
           add_other_samples(name, samples_of(*result_case, *now), samples_of(*before, *then));
-        else if (!add_cut_lists(*result_case, now->value()) && !add_cut_lists(*before, then->value()))
+        else if (!add_cut_lists(*result_case, now->value(), false) && !add_cut_lists(*before, then->value(), false))
           add_verdict_on_change(*result_case, *now, *then);
       }
       if (has_none) without.push_back(name);

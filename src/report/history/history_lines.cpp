@@ -52,7 +52,7 @@ Json line_of(const result::Result& result, const std::string& commit) {
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
   if (has_cold_times(result)) {
     line["caches"] = "cold";
-    if (const Json mib = setting_of(result.config, "/timing/sweep_mib"); !mib.is_null())
+    if (const Json mib = setting_of_parts(result.config, "/timing/sweep_mib"); !mib.is_null())
       line["swept"] = mib.dump() + " MiB";
   }
   if (const std::string device = devices_of(result); !device.empty()) line["device"] = device;

@@ -30,19 +30,19 @@ result::Tool without_target(result::Tool tool) {
   return tool;
 }
 
-bool has_cold_times(const result::Result& result) {
+bool has_swept_times(const result::Result& result) {
   return std::ranges::any_of(result.cases,
                              [](const result::Case& one) { return one.timing && one.timing->caches == "cold"; });
 }
 
-// Null: by the caches of the machine.
+// Times after sweeps of the caches of two sizes do not compare. Null: by the caches of the machine.
 void check_sweeps(const std::vector<NamedPart>& parts) {
   const NamedPart* first = nullptr;
   for (const NamedPart& part : parts) {
-    if (!has_cold_times(part.result)) continue;
+    if (!has_swept_times(part.result)) continue;
     if (first == nullptr) first = &part;
-    const Json swept = setting_of(first->result.config, "/timing/sweep_mib"),
-               now = setting_of(part.result.config, "/timing/sweep_mib");
+    const Json swept = setting_of_parts(first->result.config, "/timing/sweep_mib"),
+               now = setting_of_parts(part.result.config, "/timing/sweep_mib");
     if (swept != now)
       throw Error(part.file, "/config/timing/sweep_mib",
                   "is " + now.dump() + ", and that of " + first->file + " is " + swept.dump() +
