@@ -124,13 +124,13 @@ geom::OrientedBox LightArrays::box(std::uint32_t light) const {
 }
 
 // A spot's sphere is padded itself: a longer range would move it forward as much as it grows, and pad nothing behind
-// the apex. Its size may exceed the spot's reach, which counts the range alone.
+// the apex. The sphere's |x| + |y| + |z| + radius is at most the spot's reach and 0.94 of its range: its middle is 0.71
+// of the range from the apex, which is at most 1.23 in that sum, and the radius is at most 0.71.
 geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundoffs) const {
   if (!is_spot(light)) return ball(light, roundoffs);
-  geom::Ball around = geom::bounding_ball(cone(light, 0.0f));
-  if (roundoffs == 0.0f || is_empty(light)) return around;
-  around.radius += roundoffs * (k_roundoff * std::max(reach[light], geom::size_of(around.center) + around.radius));
-  return around;
+  const bool is_padded = roundoffs != 0.0f && !is_empty(light);
+  const float padding = is_padded ? roundoffs * (k_roundoff * (reach[light] + radius[light])) : 0.0f;
+  return geom::bounding_ball(cone(light, 0.0f), padding);
 }
 
 geom::LightVolume LightArrays::volume(std::uint32_t light) const {

@@ -217,7 +217,7 @@ TEST(Lights, of_spots_have_a_sphere_that_is_padded_on_all_sides) {
                   ahead = spot.position + (spot.range_m + pad) * spot.direction;
       EXPECT_LE(glm::length(behind - middle), padded.radius) << spot.outer_cone_rad << ", " << roundoffs;
       EXPECT_LE(glm::length(ahead - middle), padded.radius) << spot.outer_cone_rad << ", " << roundoffs;
-      EXPECT_LE(padded.radius - plain.radius, 0x1p-24 * (roundoffs + 2.0) * (own + 10.0));
+      EXPECT_LE(padded.radius - plain.radius, 0x1p-24 * (roundoffs + 2.0) * (own + 15.0));
     }
   }
 }

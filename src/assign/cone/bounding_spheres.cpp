@@ -38,7 +38,7 @@ void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_co
       x = x + along * of_spot(lights.axis_x);
       y = y + along * of_spot(lights.axis_y);
       z = z + along * of_spot(lights.axis_z);
-      radius = padded(radius, Max(reach, Abs(x) + Abs(y) + Abs(z) + radius), roundoffs);
+      radius = padded(radius, reach + range, roundoffs);
     }
     StoreU(x, D(), balls.x.data() + i);
     StoreU(y, D(), balls.y.data() + i);

@@ -97,15 +97,15 @@ void outward_planes(const FrustumCell& cell, Plane (&planes)[6]) {
   planes[5] = unit_plane(0.0, 0.0, -1.0, static_cast<double>(cell.depth1));
 }
 
-Ball bounding_ball(const SphericalCone& cone) {
+Ball bounding_ball(const SphericalCone& cone, float padding) {
   if (std::isinf(cone.range)) return {cone.apex, k_infinity};
   const bool narrow = cone.cos_angle > cone.sin_angle;
   const float along = narrow ? cone.range / (2.0f * cone.cos_angle) : cone.range * cone.cos_angle;
   const float radius = narrow ? along : cone.range * cone.sin_angle;
   // `along` is off by 3 unit roundoffs of the range (a rounded cosine, a product, a quotient), the centre by 3 more and
-  // a rounded axis by 1, the radius by 3: 11 of 16. Callers pad the result for their own steps.
+  // a rounded axis by 1, the radius by 3: 11 of 16.
   constexpr float k_slack = 0x1p-20f;
-  return {cone.apex + along * cone.axis, radius + k_slack * (size_of(cone.apex) + cone.range)};
+  return {cone.apex + along * cone.axis, radius + k_slack * (size_of(cone.apex) + cone.range) + padding};
 }
 
 Box box_around(const FrustumCell& cell) {

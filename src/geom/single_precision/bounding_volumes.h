@@ -11,8 +11,9 @@ namespace clusterbench::geom {
 void outward_planes(const FrustumCell& cell, Plane (&planes)[6]);
 
 // The smallest ball around a sphere-capped cone, rounded up; conservative.
-// Half-angle below 45°: through the apex and the rim, radius range / (2 cos a); above: around the rim's circle.
-Ball bounding_ball(const SphericalCone& cone);
+// Half-angle below 45°: through the apex and the rim, radius range / (2 cos a); above: around the rim's circle. Larger
+// by `padding`, for the roundoffs of whoever tests it.
+Ball bounding_ball(const SphericalCone& cone, float padding = 0.0f);
 
 // The smallest axis-aligned box around a frustum cell, rounded outward.
 Box box_around(const FrustumCell& cell);
