@@ -7,6 +7,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -17,38 +18,6 @@ namespace {
 
 using Work = std::function<void(std::size_t i)>;
 
-// Does this thread do a part of some pool's work? Work within it is done here, since all threads may be waiting for it.
-thread_local bool is_at_work = false;
-
-// One call of each().
-struct Job {
-  const Work* work = nullptr;
-  std::size_t count = 0;
-  std::atomic<std::size_t> next = 0;
-  std::mutex failing;
-  std::exception_ptr failure;  // the first one
-
-  void start(std::size_t of, const Work& with) {
-    work = &with;
-    count = of;
-    failure = nullptr;
-    next.store(0, std::memory_order_relaxed);
-  }
-  void keep_failure() {
-    const std::lock_guard lock(failing);
-    if (!failure) failure = std::current_exception();
-  }
-  void take_part() {
-    is_at_work = true;
-    for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) try {
-        (*work)(i);
-      } catch (...) {
-        keep_failure();
-      }
-    is_at_work = false;
-  }
-};
-
 int helpers_for(int threads) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return std::min(threads, processors) - 1;
@@ -57,6 +26,39 @@ int helpers_for(int threads) {
 }  // namespace
 
 struct ThreadPool::Arena {
+  // One call of each(), on the stack of its caller.
+  struct Job {
+    Arena& arena;
+    const Work& work;
+    const std::size_t count;
+    const int threads;  // at most so many take part
+    const Job* outer;   // at whose work the caller is; null: at none
+    std::atomic<std::size_t> next = 0;
+    int helpers = 0;  // threads at it beside the caller
+    std::mutex failing{};
+    std::exception_ptr failure{};  // the first one
+
+    bool is_open() const { return next < count && helpers + 1 < threads; }
+    bool is_within(const Job& other) const {
+      for (const Job* job = outer; job != nullptr; job = job->outer)
+        if (job == &other) return true;
+      return false;
+    }
+    void take_part() {
+      const Job* before = std::exchange(current, this);
+      for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) try {
+          work(i);
+        } catch (...) {
+          const std::lock_guard lock(failing);
+          if (!failure) failure = std::current_exception();
+        }
+      current = before;
+    }
+  };
+
+  // At whose work this thread is. Work within it is done by the same threads.
+  static thread_local const Job* current;
+
   explicit Arena(int helper_count) {
     helpers.reserve(static_cast<std::size_t>(helper_count));
     try {
@@ -65,63 +67,64 @@ struct ThreadPool::Arena {
       // The system allows no more: those that it has started do all.
     }
   }
-  ~Arena() { stop(); }
+  ~Arena() {
+    {
+      const std::lock_guard lock(mutex);
+      is_ending = true;
+    }
+    changed.notify_all();
+    for (std::thread& helper : helpers) helper.join();
+  }
 
-  void run(std::size_t count, const Work& work) {
-    const std::lock_guard one_job_at_a_time(calling);
-    job.start(count, work);
-    begin_round();
+  void run(std::size_t count, int threads, const Work& work) {
+    Job job{*this, work, count, threads, current};
+    {
+      const std::lock_guard lock(mutex);
+      jobs.push_back(&job);
+    }
+    changed.notify_all();
     job.take_part();
-    wait_for_helpers();
+    std::unique_lock lock(mutex);
+    std::erase(jobs, &job);
+    while (job.helpers > 0)
+      if (!help_with(&job, lock)) changed.wait(lock);
     if (job.failure) std::rethrow_exception(job.failure);
   }
 
  private:
-  void begin_round() {
-    {
-      const std::lock_guard lock(state);
-      ++round;
-      busy = helpers.size();
-    }
-    begun.notify_all();
-  }
-  void wait_for_helpers() {
-    std::unique_lock lock(state);
-    done.wait(lock, [this] { return busy == 0; });
-  }
-  // False at the end.
-  bool wait_for_round_after(unsigned last) {
-    std::unique_lock lock(state);
-    begun.wait(lock, [&] { return is_ending || round != last; });
-    return !is_ending;
-  }
   void help() {
-    for (unsigned last = 0; wait_for_round_after(last); ++last) {
-      job.take_part();
-      const std::lock_guard lock(state);
-      if (--busy == 0) done.notify_one();
-    }
+    std::unique_lock lock(mutex);
+    while (!is_ending)
+      if (!help_with(nullptr, lock)) changed.wait(lock);
   }
-  void stop() {
-    {
-      const std::lock_guard lock(state);
-      is_ending = true;
-    }
-    begun.notify_all();
-    for (std::thread& helper : helpers) helper.join();
+  // Takes part in the newest job within `outer`, whose caller may hold locks that others need; null: in any. False if
+  // there is none.
+  bool help_with(const Job* outer, std::unique_lock<std::mutex>& lock) {
+    const auto newest = std::find_if(jobs.rbegin(), jobs.rend(), [&](const Job* job) {
+      return job->is_open() && (outer == nullptr || job->is_within(*outer));
+    });
+    if (newest == jobs.rend()) return false;
+    Job& job = **newest;
+    ++job.helpers;
+    lock.unlock();
+    job.take_part();
+    lock.lock();
+    --job.helpers;
+    changed.notify_all();
+    return true;
   }
 
-  std::mutex calling, state;
-  std::condition_variable begun, done;
-  unsigned round = 0;    // a helper takes part in each once
-  std::size_t busy = 0;  // helpers that have not finished the round
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<Job*> jobs;  // that threads may join, in the order of their calls
   bool is_ending = false;
-  Job job;
   std::vector<std::thread> helpers;
 };
 
+thread_local const ThreadPool::Arena::Job* ThreadPool::Arena::current = nullptr;
+
 ThreadPool::ThreadPool(int threads) : threads_(threads) {
-  if (helpers_for(threads) > 0 && !is_at_work && shared_threads() == nullptr)
+  if (helpers_for(threads) > 0 && Arena::current == nullptr && shared_threads() == nullptr)
     arena_ = std::make_unique<Arena>(helpers_for(threads));
 }
 ThreadPool::~ThreadPool() = default;
@@ -130,7 +133,8 @@ ThreadPool& ThreadPool::operator=(ThreadPool&&) noexcept = default;
 
 void ThreadPool::each(std::size_t count, const Work& work) {
   if (shared_threads() != nullptr && threads_ > 1) return shared_threads()->each(count, work);
-  if (arena_ && !is_at_work) return arena_->run(count, work);
+  Arena* arena = Arena::current != nullptr ? &Arena::current->arena : arena_.get();
+  if (arena != nullptr && threads_ > 1 && count > 1) return arena->run(count, threads_, work);
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 

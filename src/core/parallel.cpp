@@ -10,6 +10,7 @@
 #include <future>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/shared_threads.h"
@@ -26,19 +27,41 @@ namespace {
 // of the work have no order among themselves, so the sanitizer still finds races between them.
 class SharedWork {
  public:
-  SharedWork() { release(&begun_); }
+  // Of an arena with so many threads.
+  explicit SharedWork(int threads) : threads_(threads) { release(&begun_); }
   SharedWork(const SharedWork&) = delete;
   ~SharedWork() { acquire(&done_); }
 
+  // Within work of as many threads all is done in their arena: threads that have nothing left to do there take part,
+  // and oneTBB has no others. A thread that waits for all of it does no other work meanwhile, since it may hold locks.
+  template <class All>
+  void run(oneapi::tbb::task_arena& arena, const All& all) const {
+    if (threads_here == threads_)
+      oneapi::tbb::this_task_arena::isolate(all);
+    else
+      arena.execute(all);
+  }
+
   // On any thread.
-  template <class Work>
-  void guarded(Work&& work) {
+  template <class Part>
+  void guarded(const Part& part) {
+    const Within within(threads_);
     acquire(&begun_);
-    work();
+    part();
     release(&done_);
   }
 
  private:
+  // Of the arena at whose work this thread is; 0: none.
+  static thread_local int threads_here;
+
+  struct Within {
+    explicit Within(int threads) : outside(std::exchange(threads_here, threads)) {}
+    Within(const Within&) = delete;
+    ~Within() { threads_here = outside; }
+    int outside;
+  };
+
 #ifdef CLUSTERBENCH_THREAD_SANITIZER
   static void acquire(char* at) {
     __tsan_acquire(at);
@@ -51,8 +74,11 @@ class SharedWork {
   static void release(char*) {}
 #endif
 
+  int threads_;
   char begun_ = 0, done_ = 0;
 };
+
+thread_local int SharedWork::threads_here = 0;
 
 // How many of so many threads, with this one, the system allows now.
 int allowed_threads(int wanted) {
@@ -99,8 +125,8 @@ void ThreadPool::each(std::size_t count, const std::function<void(std::size_t i)
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  SharedWork shared;
-  arena_->workers.execute([&] {
+  SharedWork shared(workers(threads_));
+  shared.run(arena_->workers, [&] {
     oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { shared.guarded([&] { work(i); }); });
   });
 }
@@ -112,8 +138,8 @@ void parallel_ranges(std::size_t count, int threads,
     return;
   }
   oneapi::tbb::task_arena arena(workers(threads));
-  SharedWork shared;
-  arena.execute([&] {
+  SharedWork shared(workers(threads));
+  shared.run(arena, [&] {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count),
                               [&](const auto& range) { shared.guarded([&] { work(range.begin(), range.end()); }); });
   });

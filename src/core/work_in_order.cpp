@@ -55,4 +55,12 @@ void each_in_order(ThreadPool& pool, std::size_t count, const std::function<void
   failure.rethrow();
 }
 
+void ranges_in_order(int threads, int count, int at_once, const std::function<void(int begin, int end)>& work) {
+  ThreadPool pool(threads);
+  each_in_order(pool, static_cast<std::size_t>((count + at_once - 1) / at_once), [&](std::size_t i) {
+    const int begin = static_cast<int>(i) * at_once;
+    work(begin, std::min(count, begin + at_once));
+  });
+}
+
 }  // namespace clusterbench

@@ -15,6 +15,9 @@ int processors();
 // If parts throw, no further part begins, and this throws what the first of them, by its number, has thrown.
 void each_in_order(ThreadPool& pool, std::size_t count, const std::function<void(std::size_t i)>& work);
 
+// The same over ranges of [0, count), each but the last of `at_once`: calls work(begin, end).
+void ranges_in_order(int threads, int count, int at_once, const std::function<void(int begin, int end)>& work);
+
 // Whether part i of such work should use all threads itself: it is among the last ones, beside which threads are idle.
 inline bool is_near_end(std::size_t i, std::size_t count, const ThreadPool& pool) {
   constexpr std::size_t k_last_of_thread = 4;

@@ -25,7 +25,8 @@ struct FrameCounts {
 
 double lights_reaching(const config::Config& config, const SceneData& data, const GroupPlan& group) {
   if (group.camera < data.lights_at_points.size()) return data.lights_at_points[group.camera];
-  return lights_at_a_point(data.scene, data.paths[group.camera], config.viewports[group.viewport], config.seed);
+  return lights_at_a_point(data.scene, data.paths[group.camera], config.viewports[group.viewport], config.seed,
+                           config.threads);
 }
 
 FrameCounts frame_counts(const config::Config& config, const Plan& plan, const GroupPlan& group) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -99,10 +100,14 @@ Moments moments_of(const Scene& scene, const Channels& channels) {
 
 void add_state(const State& state, Sha256& digest) {
   digest.add(std::to_string(state.size()) + ":");
+  std::array<char, 11 * std::tuple_size_v<Numbers>> text;  // ten digits and a space each
   for (const Numbers& numbers : state) {
-    std::string text;
-    for (const std::uint32_t number : numbers) text += std::to_string(number) + " ";
-    digest.add(text);
+    char* end = text.data();
+    for (const std::uint32_t number : numbers) {
+      end = std::to_chars(end, text.data() + text.size(), number).ptr;
+      *end++ = ' ';
+    }
+    digest.add({text.data(), end});
   }
 }
 
@@ -202,6 +207,10 @@ std::string camera_digest(const Scene& scene, const Camera& camera) {
       scene, channels_of_camera(scene, camera), [&](double time_s) { return camera_at(scene, camera, time_s); },
       digest);
   return first_digits(digest);
+}
+
+bool lights_change(const Scene& scene) {
+  return !channels_of_lights(scene).empty();
 }
 
 bool is_dark(const WorldLight& light) {

@@ -18,6 +18,9 @@ std::string light_digest(const Scene& scene);
 // it and in the middles between keys. The number of measured moments does not count.
 std::string camera_digest(const Scene& scene, const Camera& camera);
 
+// Whether an animation moves, hides or changes a light. If not, world_lights() is the same at all times.
+bool lights_change(const Scene& scene);
+
 // Whether the light has no visible effect: intensity 0, black, or range 0. A box lights nothing and is dark only if its
 // range is 0, like a hidden one.
 bool is_dark(const WorldLight& light);

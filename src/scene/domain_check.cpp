@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "core/error.h"
+#include "core/work_in_order.h"
 #include "geom/shapes/domain.h"
+#include "scene/digests.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -79,14 +80,16 @@ void check_domain(const Scene& scene, const std::string& camera, const Shot& sho
       if (!(std::abs(shot.pose.view_from_world[column][row]) <= 2.0)) fail("has no rotation");
 }
 
-void check_domain(const Scene& scene, const CameraPath& path) {
-  std::set<double> times;
-  for (const Shot& shot : path.shots) {
-    check_domain(scene, path.camera, shot);
-    const bool is_first = times.empty();
-    if (times.insert(shot.time_s).second && (is_first || !scene.channels.empty() || !scene.light_channels.empty()))
-      check_domain(scene, world_lights(scene, shot.time_s), shot.time_s);
-  }
+void check_domain(const Scene& scene, const CameraPath& path, int threads) {
+  const bool change = lights_change(scene);
+  constexpr int k_shots_at_once = 8;
+  ranges_in_order(threads, static_cast<int>(path.shots.size()), k_shots_at_once, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Shot& shot = path.shots[static_cast<std::size_t>(i)];
+      check_domain(scene, path.camera, shot);
+      if (i == 0 || change) check_domain(scene, world_lights(scene, shot.time_s), shot.time_s);
+    }
+  });
 }
 
 }  // namespace clusterbench::scene

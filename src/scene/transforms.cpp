@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
@@ -374,8 +375,10 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
       const auto node = static_cast<std::size_t>(light.node);
       const auto channels = channels_of(scene.light_channels, light.definition);
       const Mat4d transform = world.of(node);
-      out.push_back(world_light(channels.empty() ? light : light_at(scene, light, channels, time_s),
-                                static_cast<int>(i), transform, world.back_of(node, transform)));
+      const std::optional<Light> changed =
+          channels.empty() ? std::nullopt : std::optional(light_at(scene, light, channels, time_s));
+      out.push_back(
+          world_light(changed ? *changed : light, static_cast<int>(i), transform, world.back_of(node, transform)));
       if (!visible[node]) out.back().range_m = 0.0;
     }
   }

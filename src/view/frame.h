@@ -126,6 +126,9 @@ PictureRay picture_ray(const Frame& frame, const Vec2d& pixel);
 
 // Throws Error for a frame outside of the domain (geom/shapes/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
+// With the lights that the scene has then, inside of the domain.
+Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport,
+                 std::vector<scene::WorldLight> lights);
 
 // The error of these numbers before a method starts, in roundoffs: one for the centre (each coordinate has an error of
 // 2^-24 of itself, so the centre of 2^-24 of its length), one for the sum that pads the radius.

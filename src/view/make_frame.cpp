@@ -1,5 +1,7 @@
 // Frames of a scene. Apart from frame.cpp, which needs no scene.
 
+#include <utility>
+
 #include "scene/domain_check.h"
 #include "view/frame.h"
 
@@ -21,6 +23,13 @@ Projection jittered(Projection projection, Vec2d jitter_px, Vec2i viewport) {
 }  // namespace
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
+  std::vector<scene::WorldLight> lights = scene::world_lights(scene, shot.time_s);
+  scene::check_domain(scene, lights, shot.time_s);
+  return make_frame(scene, shot, index, viewport, std::move(lights));
+}
+
+Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport,
+                 std::vector<scene::WorldLight> lights) {
   scene::check_domain(scene, "", shot);
   Frame frame;
   frame.index = index;
@@ -29,8 +38,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
   frame.projection = jittered(make_projection(shot.projection, viewport), shot.jitter_px, viewport);
   check_projection(frame.projection);
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
-  frame.lights = scene::world_lights(scene, shot.time_s);
-  scene::check_domain(scene, frame.lights, shot.time_s);
+  frame.lights = std::move(lights);
   frame.count_types();
   return frame;
 }

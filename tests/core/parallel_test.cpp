@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -92,6 +93,50 @@ TEST(ThreadPool, has_two_threads_at_work_if_there_are_two_processors) {
     while (there < 2) std::this_thread::yield();
   });
   EXPECT_EQ(there, 2);
+}
+
+// Two threads at once: each waits for the other, but not for ever.
+class Meeting {
+ public:
+  void wait_for_other() {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    ++here_;
+    while (here_ < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    if (here_ == 2) ++met_;
+  }
+  bool was_held() const { return met_ == 2; }
+
+ private:
+  std::atomic<int> here_ = 0, met_ = 0;
+};
+
+TEST(ThreadPool, helps_with_work_within_its_work) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+  Meeting outer, inner, ranges;
+  ThreadPool(2).each(2, [&](std::size_t i) {
+    outer.wait_for_other();
+    if (i == 0) return;
+    ThreadPool(2).each(2, [&](std::size_t) { inner.wait_for_other(); });
+    parallel_ranges(2, 2, [&](std::size_t, std::size_t) { ranges.wait_for_other(); });
+  });
+  EXPECT_TRUE(outer.was_held());
+  EXPECT_TRUE(inner.was_held());
+  EXPECT_TRUE(ranges.was_held());
+}
+
+// A thread that waits does nothing that is not part of what it waits for: it would wait for its own lock.
+TEST_P(ThreadPools, may_be_called_with_a_lock_held) {
+  ThreadPool pool(GetParam());
+  std::mutex one_at_a_time;
+  std::atomic<int> done = 0;
+  pool.each(64, [&](std::size_t) {
+    const std::lock_guard lock(one_at_a_time);
+    ThreadPool(GetParam()).each(16, [&](std::size_t) {
+      std::this_thread::yield();
+      ++done;
+    });
+  });
+  EXPECT_EQ(done, 64 * 16);
 }
 
 class CountedThreads final : public SharedThreads {

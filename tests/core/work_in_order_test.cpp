@@ -24,6 +24,17 @@ TEST_P(WorkInOrder, is_done_once_each) {
   }
 }
 
+TEST_P(WorkInOrder, is_done_once_each_in_ranges) {
+  for (const int count : {0, 1, 7, 8, 9, 1000}) {
+    std::vector<int> visits(static_cast<std::size_t>(count), 0);
+    ranges_in_order(GetParam(), count, 8, [&](int begin, int end) {
+      EXPECT_LE(end - begin, 8);
+      for (int i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+    });
+    EXPECT_EQ(visits, std::vector<int>(static_cast<std::size_t>(count), 1));
+  }
+}
+
 TEST_P(WorkInOrder, throws_the_first_failure_by_its_number_and_begins_nothing_more) {
   ThreadPool pool(GetParam());
   for (int round = 0; round < 50; ++round) {

@@ -167,6 +167,33 @@ TEST(LightDigest, is_another_for_each_of_more_keys_than_are_asked_for) {
   }
 }
 
+TEST(Lights, change_where_an_animation_moves_hides_or_alters_one_or_what_it_hangs_on) {
+  Scene scene = rig_of(3);
+  const auto add_node = [&] {
+    scene.nodes.emplace_back();
+    return static_cast<int>(scene.nodes.size()) - 1;
+  };
+  const int eye = add_node(), arm = add_node(), shoulder = add_node();
+  node_of(scene, 1).parent = arm;
+  scene.nodes[static_cast<std::size_t>(arm)].parent = shoulder;
+  EXPECT_FALSE(lights_change(scene));
+  const auto changes_with = [&](ChannelPath path, int node) {
+    Scene moving = scene;
+    moving.channels.push_back(channel_of(scene, 0, path, {0.0, 1.0}, {at(0, 0, 0), at(1, 0, 0)}));
+    moving.channels.back().node = node;
+    return lights_change(moving);
+  };
+  EXPECT_FALSE(changes_with(ChannelPath::translation, eye));
+  for (const int node : {scene.lights[0].node, scene.lights[1].node, arm, shoulder}) {
+    EXPECT_TRUE(changes_with(ChannelPath::translation, node)) << node;
+    EXPECT_TRUE(changes_with(ChannelPath::visible, node)) << node;
+  }
+  Scene pulsing = scene;
+  pulsing.light_channels.push_back(
+      channel_of(scene, 0, ChannelPath::intensity, {0.0, 1.0}, {at(0, 0, 0), at(1, 0, 0)}));
+  EXPECT_TRUE(lights_change(pulsing));
+}
+
 TEST(LightDigest, a_light_that_shines_at_some_time_is_not_dark) {
   Scene scene = rig_of(1);
   scene.lights[0].definition = 0;

@@ -26,11 +26,11 @@ Scene lamp_below(const test::Animation& animation) {
 }
 
 // "where: message" of the refusal of the first camera's path over so many frames; "" if there is none.
-std::string refused(const Scene& scene, int frames) {
+std::string refused(const Scene& scene, int frames, int threads = 1) {
   PathRequest request;
   request.count = frames;
   try {
-    for (const CameraPath& path : camera_paths(scene, request)) check_domain(scene, path);
+    for (const CameraPath& path : camera_paths(scene, request)) check_domain(scene, path, threads);
   } catch (const Error& error) {
     EXPECT_EQ(error.file(), scene.path.string());
     return error.where() + ": " + error.message();
@@ -44,6 +44,7 @@ TEST(Domain, is_checked_at_every_sampled_frame_and_the_node_the_time_and_the_val
             "/nodes/1: the light 'lamp' stands at (3.99999995e+15, 0, 0) m, farther from the origin than 1e+15 m along "
             "an axis at 4 s");
   EXPECT_EQ(refused(scene, 1), "");  // its only frame is the first one
+  for (const int threads : {2, 3}) EXPECT_EQ(refused(scene, 400, threads), refused(scene, 400)) << threads;
   const Scene nearer = lamp_below(test::animation("scale", "LINEAR", {0, 4}, {1, 1, 1, 9e14F, 1, 1}));
   EXPECT_EQ(refused(nearer, 60), "");
 }

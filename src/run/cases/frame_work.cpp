@@ -9,9 +9,10 @@
 
 namespace clusterbench::run {
 
-double lights_at_a_point(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, std::uint64_t seed) {
+double lights_at_a_point(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, std::uint64_t seed,
+                         int threads) {
   constexpr int k_frames = 4, k_points = 256;
-  const PathFrames frames(scene, path, viewport);
+  const PathFrames frames(scene, path, viewport, nullptr, threads);
   const std::vector<int> some = evenly_spaced(k_frames, frames.count());
   std::uint64_t reaching = 0, points = 0;
   for (const int index : some) {

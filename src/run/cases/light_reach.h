@@ -9,6 +9,7 @@ namespace clusterbench::run {
 class LightReach {
  public:
   void add(const view::Frame& frame);
+  void add(const LightReach& other);
 
   // The box around the lights' balls; a point at the origin without lights.
   const Vec3d& lo() const { return lo_; }
@@ -18,6 +19,8 @@ class LightReach {
   double far_m() const { return far_m_; }
 
  private:
+  void add_box(const Vec3d& lo, const Vec3d& hi);
+
   Vec3d lo_{0.0}, hi_{0.0};
   double far_m_ = 0.0;
   bool is_empty_ = true;

@@ -2,19 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assign/contract/assigner_run.h"
+#include "core/work_in_order.h"
+#include "scene/digests.h"
 
 namespace clusterbench::run {
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
                        int threads, SceneVisibleSets* visible_sets)
     : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads), visible_sets_(visible_sets) {
-  for (int i = 0; i < count(); ++i) {
-    const view::Frame now = frame(i);
-    if (i == 0) shape_ = now.projection;
-    reach_.add(now);
-  }
+  const int frames = count();
+  if (frames == 0) return;
+  view::Frame first = frame(0);
+  shape_ = first.projection;
+  if (!scene::lights_change(scene))
+    lights_ = std::make_shared<const std::vector<scene::WorldLight>>(std::move(first.lights));
+  std::mutex adding;
+  constexpr int k_frames_at_once = 8;
+  ranges_in_order(threads, frames, k_frames_at_once, [&](int begin, int end) {
+    LightReach reach;
+    for (int i = begin; i < end; ++i) reach.add(frame(i));
+    const std::lock_guard lock(adding);
+    reach_.add(reach);
+  });
 }
 
 PathFrames PathFrames::only(std::vector<int> frames) const {
@@ -33,7 +45,9 @@ std::optional<view::Frame> PathFrames::neighbour(const view::Frame& frame) const
 }
 
 view::Frame PathFrames::frame_of_path(int index) const {
-  return view::make_frame(scene_, path_.shots[static_cast<std::size_t>(index)], index, viewport_);
+  const scene::Shot& shot = path_.shots[static_cast<std::size_t>(index)];
+  return lights_ ? view::make_frame(scene_, shot, index, viewport_, *lights_)
+                 : view::make_frame(scene_, shot, index, viewport_);
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
@@ -112,6 +126,16 @@ PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPl
   const SceneData& data = plan.scenes[group.scene];
   return {data.scene,        data.paths[group.camera], config.viewports[group.viewport],
           data.depths.get(), config.threads,           data.visible_sets.get()};
+}
+
+PathFrames PathOfGroups::of(const GroupPlan& group) {
+  const std::lock_guard lock(mutex_);
+  const std::array view{group.scene, group.camera, group.viewport};
+  if (!last_ || view != view_of_last_) {
+    last_.emplace(path_of(config_, plan_, group));
+    view_of_last_ = view;
+  }
+  return *last_;
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {

@@ -2,9 +2,12 @@
 // The frames of one camera path in one viewport, made on request: a path over a large rig would not fit in memory as a
 // whole.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +32,9 @@ struct FrameReaction {
 
 class PathFrames {
  public:
-  // All must outlive this object. Without `depths` its frames have none. `threads`: for the depths that grids follow;
-  // results do not depend on it. `visible_sets`: of the scene, if a pre-cull needs them.
+  // All must outlive this object. Without `depths` its frames have none. `threads`: for what all frames are needed for,
+  // and for the depths that grids follow; results do not depend on it. `visible_sets`: of the scene, if a pre-cull
+  // needs them.
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
              int threads = 1, SceneVisibleSets* visible_sets = nullptr);
 
@@ -70,6 +74,7 @@ class PathFrames {
         path_(path),
         viewport_(whole.viewport_),
         reach_(whole.reach_),
+        lights_(whole.lights_),
         shape_(whole.shape_),
         depths_(whole.depths_),
         threads_(whole.threads_),
@@ -85,6 +90,8 @@ class PathFrames {
   const scene::CameraPath& path_;
   Vec2i viewport_;
   LightReach reach_;
+  // Of all frames; null if they differ in their lights.
+  std::shared_ptr<const std::vector<scene::WorldLight>> lights_;
   view::Projection shape_;  // of the first frame: all frames have the same number of cells in a shape
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
@@ -97,6 +104,21 @@ class PathFrames {
 
 // The frames in which a group of cases is measured.
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group);
+
+// The same, made once for groups that follow one another in a view; on any thread.
+class PathOfGroups {
+ public:
+  // Both must outlive this object.
+  PathOfGroups(const config::Config& config, const Plan& plan) : config_(config), plan_(plan) {}
+  PathFrames of(const GroupPlan& group);
+
+ private:
+  const config::Config& config_;
+  const Plan& plan_;
+  std::mutex mutex_;
+  std::optional<PathFrames> last_;
+  std::array<std::size_t, 3> view_of_last_{};  // scene, camera, viewport
+};
 
 // Whether one of a group's methods needs depth.
 bool needs_depth(const config::Config& config, const GroupPlan& group);

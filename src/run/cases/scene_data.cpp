@@ -51,7 +51,8 @@ scene::Scene resolved_scene(const config::SceneRequest& request) {
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
   if (request.camera.most_lights == 0.0 && !config.accuracy.most_pairs) return;
   for (const scene::CameraPath& path : data.paths)
-    data.lights_at_points.push_back(lights_at_a_point(data.scene, path, config.viewports.front(), config.seed));
+    data.lights_at_points.push_back(
+        lights_at_a_point(data.scene, path, config.viewports.front(), config.seed, config.threads));
   if (request.camera.most_lights == 0.0) return;
   scene::PathRequest fewer = request.camera;
   fewer.count = frames_within(fewer.count, fewer.most_lights, data.paths, data.lights_at_points);
@@ -61,10 +62,10 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
   data.paths = scene::camera_paths(data.scene, fewer);
 }
 
-void check_and_name_paths(SceneData& data) {
+void check_and_name_paths(SceneData& data, int threads) {
   UniqueNames cameras;
   for (scene::CameraPath& path : data.paths) {
-    scene::check_domain(data.scene, path);
+    scene::check_domain(data.scene, path, threads);
     path.camera = cameras.add(name_part(path.camera));
   }
 }
@@ -103,7 +104,7 @@ SceneData scene_data(const config::Config& config, const config::SceneRequest& r
   data.scene.name = names.add(name_part(data.scene.name));
   data.paths = scene::camera_paths(data.scene, request.camera);
   weigh_frames(config, request, data);
-  check_and_name_paths(data);
+  check_and_name_paths(data, config.threads);
   data.counts_triangles = needs_triangles(config);
   const bool reads_triangles = std::ranges::any_of(config.reading_sets, &config::SampleSetRequest::needs_triangles);
   if ((data.counts_triangles || reads_triangles) && !request.rig) {
