@@ -55,7 +55,7 @@ def test_exists(mutation, root=ROOT):
 # --- The copy of the tree ---
 
 def files_of(root):
-    paths = [root / "CMakeLists.txt", root / "LICENSE"]
+    paths = [root / "CMakeLists.txt", root / "LICENSE", root / "CONTRIBUTING.md"]
     for folder in FOLDERS:
         paths += [path for path in sorted((root / folder).rglob("*")) if path.is_file() and path.suffix != ".pyc"]
     return {path.relative_to(root) for path in paths}
