@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "assign/contract/method_error.h"
+#include "core/error.h"
 #include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
 #include "os/call_notes.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/device_pass.h"
+#include "run/shards.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -139,7 +141,8 @@ GroupCost cost_of_group(const config::Config& config, int threads, const Plan& p
   return cost;
 }
 
-// If a device fails, that of the cases without one; if a plug-in does, none: the run itself says what has failed.
+// If a device fails, that of the cases without one; if anything else does, none: the run itself says what has failed,
+// in the order of its cases.
 GroupCost cost_of_what_runs(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
                             double sweep_ns, const EstimateLimits& limits) {
   try {
@@ -149,6 +152,8 @@ GroupCost cost_of_what_runs(const config::Config& config, int threads, const Pla
     const GroupPlan others = processor_cases(config, group);
     return others.cases.empty() ? GroupCost{} : cost_of_group(config, threads, plan, others, sweep_ns, limits);
   } catch (const assign::MethodError&) {
+    return {};
+  } catch (const Error&) {
     return {};
   }
 }
@@ -176,20 +181,21 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing, on_device, reading;  // timing: of a method
+  std::vector<double> counting, timing, on_device, reading;  // counting: of predicted work; timing: of a method
   std::vector<double> timed_methods;
   for (const GroupPlan& group : plan.groups)
     timed_methods.push_back(static_cast<double>(methods_of(timed_cases(config, group)).size()));
   const double all_methods = std::accumulate(timed_methods.begin(), timed_methods.end(), 0.0);
+  const std::vector<double> work = predicted_counting(config, plan);
+  const double all_work = std::accumulate(work.begin(), work.end(), 0.0);
   const std::size_t at_once = sampled_at_once(config, plan);
   ThreadPool pool(static_cast<int>(at_once));
   config::Config on_one_thread = config;
   on_one_thread.threads = 1;
   const int threads = std::min(config.threads, processors());
   for (const double start = wall_ns();
-       sampled < groups &&
-       (sampled == 0 || !is_enough(wall_ns() - start, limits, median(counting) * static_cast<double>(groups),
-                                   median(timing) * all_methods));) {
+       sampled < groups && (sampled == 0 || !is_enough(wall_ns() - start, limits, median(counting) * all_work,
+                                                       median(timing) * all_methods));) {
     const std::size_t first = sampled;
     sampled = std::min(groups, first + at_once);
     each_in_order(pool, sampled - first, [&](std::size_t i) {
@@ -198,17 +204,18 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
     });
     for (std::size_t i = first; i < sampled; ++i) {
       const GroupCost& cost = costs[i * stride % groups];
-      counting.push_back(cost.counting_ns);
+      counting.push_back(cost.counting_ns / work[i * stride % groups]);
       if (const double methods = timed_methods[i * stride % groups]; methods > 0.0)
         timing.push_back(cost.timing_ns / methods);
       on_device.push_back(cost.device_ns);
       reading.push_back(cost.reading_ns);
     }
   }
-  // A few groups take far longer than others: a sampled group like that stands for itself only.
+  // A few groups take far longer than predicted: a sampled group like that stands for itself only.
   for (std::size_t i = sampled; i < groups; ++i)
-    costs[i * stride % groups] = {median(counting), median(timing) * timed_methods[i * stride % groups],
-                                  median(on_device), median(reading)};
+    costs[i * stride % groups] = {median(counting) * work[i * stride % groups],
+                                  median(timing) * timed_methods[i * stride % groups], median(on_device),
+                                  median(reading)};
   return costs;
 }
 

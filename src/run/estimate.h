@@ -16,7 +16,8 @@ struct EstimateLimits {
   int warm_rounds = k_all_rounds;  // see LaunchRequest
 };
 
-// One cost per group of the plan; groups that were not sampled get the median of the others.
+// One cost per group of the plan. Groups that were not sampled get the median of the others: of the times for predicted
+// work (run/shards.h), for a method that is timed, or for a group.
 std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan,
                                        const EstimateLimits& limits = {});
 

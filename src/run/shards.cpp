@@ -1,7 +1,9 @@
 #include "run/shards.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "run/cases/frame_work.h"
 #include "run/runner.h"
@@ -23,19 +25,33 @@ struct FrameCounts {
   double lights = 0.0, cells = 0.0, pairs = 0.0, reaching = 0.0;  // `reaching`: lights at a point
 };
 
-double lights_reaching(const config::Config& config, const SceneData& data, const GroupPlan& group) {
-  if (group.camera < data.lights_at_points.size()) return data.lights_at_points[group.camera];
-  return lights_at_a_point(data.scene, data.paths[group.camera], config.viewports[group.viewport], config.seed,
-                           config.threads);
-}
+// Lights that reach a point, computed once for a view.
+class LightsReaching {
+ public:
+  LightsReaching(const config::Config& config, const Plan& plan) : config_(config), plan_(plan) {}
 
-FrameCounts frame_counts(const config::Config& config, const Plan& plan, const GroupPlan& group) {
-  const SceneData& data = plan.scenes[group.scene];
+  double in(const GroupPlan& group) {
+    const SceneData& data = plan_.scenes[group.scene];
+    if (group.camera < data.lights_at_points.size()) return data.lights_at_points[group.camera];
+    const auto [found, is_new] = known_.try_emplace({group.scene, group.camera, group.viewport});
+    if (is_new)
+      found->second = lights_at_a_point(data.scene, data.paths[group.camera], config_.viewports[group.viewport],
+                                        config_.seed, config_.threads);
+    return found->second;
+  }
+
+ private:
+  const config::Config& config_;
+  const Plan& plan_;
+  std::map<std::array<std::size_t, 3>, double> known_;
+};
+
+FrameCounts frame_counts(const Plan& plan, const GroupPlan& group, double reaching) {
   FrameCounts counts;
-  counts.lights = static_cast<double>(data.scene.lights.size());
+  counts.lights = static_cast<double>(plan.scenes[group.scene].scene.lights.size());
   counts.cells = static_cast<double>(group.cells);
-  counts.reaching = lights_reaching(config, data, group);
-  counts.pairs = static_cast<double>(true_pairs_about(group.cells, counts.reaching));
+  counts.reaching = reaching;
+  counts.pairs = static_cast<double>(true_pairs_about(group.cells, reaching));
   return counts;
 }
 
@@ -46,8 +62,8 @@ double samples_of_frame(const config::Config& config, const GroupPlan& group) {
   return samples;
 }
 
-double counting_work(const config::Config& config, const Plan& plan, const GroupPlan& group) {
-  const FrameCounts counts = frame_counts(config, plan, group);
+double counting_work(const config::Config& config, const Plan& plan, const GroupPlan& group, double reaching) {
+  const FrameCounts counts = frame_counts(plan, group, reaching);
   double frame = config.accuracy.check && compares_cells(config, group)
                      ? k_ns_per_light * counts.lights + k_ns_per_true_pair * counts.pairs
                      : 0.0;
@@ -70,12 +86,6 @@ double timing_work(const config::Config& config, const GroupPlan& group) {
   const std::size_t methods =
       methods_of(timed_cases(config, group)).size() + methods_of(device_cases(config, group)).size();
   return round * config.timing.rounds * static_cast<double>(methods);
-}
-
-std::uint64_t work_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
-  constexpr double k_most = 1e14;  // of k_most_cases groups the sum fits into 64 bits
-  const double work = counting_work(config, plan, group) + timing_work(config, group);
-  return static_cast<std::uint64_t>(std::llround(std::clamp(work, 1.0, k_most)));
 }
 
 // The ends of shards that take as many groups as `most` allows, and leave a group for each shard after them.
@@ -107,9 +117,21 @@ bool is_enough(std::span<const std::uint64_t> work, std::uint64_t shards, std::u
 
 }  // namespace
 
+std::vector<double> predicted_counting(const config::Config& config, const Plan& plan) {
+  LightsReaching reaching(config, plan);
+  std::vector<double> work;
+  for (const GroupPlan& group : plan.groups)
+    work.push_back(std::max(1.0, counting_work(config, plan, group, reaching.in(group))));
+  return work;
+}
+
 std::vector<std::uint64_t> predicted_work(const config::Config& config, const Plan& plan) {
+  constexpr double k_most = 1e14;  // of k_most_cases groups the sum fits into 64 bits
+  std::vector<double> counting = predicted_counting(config, plan);
   std::vector<std::uint64_t> work;
-  for (const GroupPlan& group : plan.groups) work.push_back(work_of(config, plan, group));
+  for (std::size_t i = 0; i < plan.groups.size(); ++i)
+    work.push_back(static_cast<std::uint64_t>(
+        std::llround(std::clamp(counting[i] + timing_work(config, plan.groups[i]), 1.0, k_most))));
   return work;
 }
 

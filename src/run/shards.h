@@ -18,6 +18,9 @@ inline constexpr std::uint64_t k_most_shards = k_most_cases;
 // divide it alike. run/estimate.h has the time that this machine would take.
 std::vector<std::uint64_t> predicted_work(const config::Config& config, const Plan& plan);
 
+// The part of it that is counting.
+std::vector<double> predicted_counting(const config::Config& config, const Plan& plan);
+
 // The shards that take the work in its order: shard i (from 0) takes the groups from ends[i - 1], or 0, to before
 // ends[i]. The largest sum of a shard is the smallest that is possible. Shards at the end are empty if there are more
 // than groups.

@@ -11,7 +11,6 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
-#include "os/host_name.h"
 #include "run/estimate.h"
 #include "run/shards.h"
 
@@ -75,12 +74,6 @@ std::size_t cases_of(const run::Plan& plan, std::size_t begin, std::size_t end) 
   return cases;
 }
 
-std::string digest_of_host() {
-  constexpr std::size_t k_digits = 12;
-  const std::string name = os::host_name();
-  return name.empty() ? "" : sha256_hex(name).substr(0, k_digits);
-}
-
 }  // namespace
 
 run::Plan sharded_plan(const RunFlags& flags, const config::Config& config, run::Plan plan, const ShardChoice& choice) {
@@ -89,7 +82,7 @@ run::Plan sharded_plan(const RunFlags& flags, const config::Config& config, run:
                                 choice.count,
                                 sweep_digest(flags, config, plan, baseline),
                                 flags.filter,
-                                config.timing.measure || !flags.count.empty() ? digest_of_host() : "",
+                                config.timing.measure || !flags.count.empty() ? host_digest() : "",
                                 baseline.empty() ? "" : config.limits.baseline.string(),
                                 baseline};
   refuse_other_shard(flags.output, shard);
@@ -103,10 +96,15 @@ void print_shards(const config::Config& config, const run::Plan& plan, const Sha
   const std::vector<std::size_t> ends = run::shard_ends(run::predicted_work(config, plan), choice.count);
   const std::vector<run::GroupCost> costs = run::estimated_costs(config, plan);
   std::size_t begin = 0, shard = 0;
-  for (; shard < ends.size() && ends[shard] > begin; begin = ends[shard++])
+  double longest_s = 0.0;
+  for (; shard < ends.size() && ends[shard] > begin; begin = ends[shard++]) {
+    const double s = run::sum_s(std::span(costs).subspan(begin, ends[shard] - begin));
+    longest_s = std::max(longest_s, s);
     std::cerr << (shard + 1 == choice.index ? "* " : "  ") << shard_name(shard + 1, choice.count) << ": "
-              << number_of(cases_of(plan, begin, ends[shard]), "case") << ", takes "
-              << duration_text(run::sum_s(std::span(costs).subspan(begin, ends[shard] - begin))) << "\n";
+              << number_of(cases_of(plan, begin, ends[shard]), "case") << ", takes " << duration_text(s) << "\n";
+  }
+  std::cerr << "  on " << number_of(choice.count, "machine") << " like this one: " << duration_text(longest_s)
+            << ", the longest shard\n";
   if (shard < ends.size())
     std::cerr << "  " << number_of(ends.size() - shard, "shard") << " from " << shard + 1
               << " on: no case is left, since a scene on a grid is never divided\n";
