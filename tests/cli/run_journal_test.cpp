@@ -86,8 +86,8 @@ TEST(Run, resuming_without_an_interrupted_run_says_that_it_begins_anew) {
   const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
   const Outcome done = tool("run -q --no-timing --resume " + config + " -o " + out);
   EXPECT_EQ(done.code, 0);
-  EXPECT_EQ(done.err, "clusterbench: --resume begins anew: nothing that an interrupted run has measured is in " + out +
-                          ".partial\n");
+  EXPECT_EQ(done.err, "clusterbench: note: nothing that an interrupted run has measured is in " + out +
+                          ".partial, so --resume begins anew\n");
 }
 
 TEST(Run, a_run_that_died_does_not_block_the_next_one) {

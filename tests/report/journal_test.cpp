@@ -158,6 +158,29 @@ TEST_F(JournalTest, of_another_device_is_refused_with_both_names) {
   }
 }
 
+TEST_F(JournalTest, of_another_machine_is_kept_aside_and_not_gone_on_with) {
+  const auto header = [](const char* host, const char* config) {
+    return Json{{"config", config}, {"machine", {{"cpu", "A"}, {"host", host}}}, {"device", {{"uuid", host}}}};
+  };
+  const Json here = header("1", "a"), there = header("2", "a");
+  { Journal(file_, here, false, 100).add_case(case_named("first")); }
+  EXPECT_EQ(finished_ids(file_, here).size(), 1u);
+  EXPECT_EQ(finished_ids(file_, there).size(), 0u);
+  EXPECT_THROW(Journal(file_, header("2", "b"), true, 100), Error) << "another configuration is refused as ever";
+  EXPECT_THROW(Journal(file_, k_header, true, 100), Error) << "and a run without times";
+  fs::path aside;
+  {
+    Journal journal(file_, there, true, 100);
+    EXPECT_TRUE(journal.is_empty());
+    EXPECT_TRUE(journal.is_set_aside_of_other_machine());
+    aside = journal.set_aside();
+    journal.add_case(case_named("second"));
+  }
+  EXPECT_EQ(Journal(file_, there, true, 100).earlier_ids(), std::vector<std::string>{"second"});
+  fs::rename(aside, file_.string() + ".partial");
+  EXPECT_EQ(Journal(file_, here, true, 100).earlier_ids(), std::vector<std::string>{"first"});
+}
+
 // Only the last line can be cut by the end of a run.
 TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
   const auto refusal_with = [&](const std::string& line) -> std::string {

@@ -7,7 +7,9 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
+#include "core/sha256.h"
 #include "core/text.h"
+#include "os/host_name.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
 #include "run/runner.h"
@@ -43,12 +45,20 @@ Json run_identity(const RunFlags& flags, const config::Config& config, const run
   return header;
 }
 
+std::string host_digest() {
+  constexpr std::size_t k_digits = 12;
+  const std::string name = os::host_name();
+  return name.empty() ? "" : sha256_hex(name).substr(0, k_digits);
+}
+
 namespace {
 
 // The facts that must be the same in an interrupted run and the run that continues it.
 Json journal_header(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   Json header = run_identity(flags, config, plan);
   if (plan.shard) header["shard"] = {plan.shard->index, plan.shard->count};
+  if (config.timing.measure || !flags.count.empty())
+    header["machine"] = {{"cpu", run::machine_facts().cpu}, {"host", host_digest()}};
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;
@@ -104,9 +114,17 @@ RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, cons
       std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on, bytes);
   if (goes_on) return;
   if (flags.resume && journal_->is_empty()) refuse_other_builds(file, config);
+  if (journal_->is_set_aside_of_other_machine()) {
+    print_message(journal_->partial_path().string() +
+                  " has times of another machine, which are never mixed with this one's: " +
+                  (journal_->set_aside().empty()
+                       ? "none is finished, and --resume begins anew"
+                       : "--resume begins anew, and the file is now " + journal_->set_aside().string()));
+    return;
+  }
   if (flags.resume && journal_->is_empty())
-    print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
-                  journal_->partial_path().string());
+    print_message("note: nothing that an interrupted run has measured is in " + journal_->partial_path().string() +
+                  ", so --resume begins anew");
   if (!journal_->set_aside().empty())
     print_message(journal_->partial_path().string() +
                   (journal_->is_set_aside_of_run() ? ", left by a run that did not end," : ", which is of no run,") +

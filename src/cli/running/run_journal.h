@@ -18,6 +18,9 @@ namespace clusterbench::cli {
 // keys that change no result, and the contents of scenes and plug-ins. Without the device.
 nlohmann::ordered_json run_identity(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
 
+// Distinguishes machines whose times are not mixed, without the host's name; "" if the system does not tell it.
+std::string host_digest();
+
 // With --resume, the ids of the cases that an interrupted run of the same plan has finished; else none. Writes no file.
 // Throws Error if the output is no file, and for a journal of another run.
 std::vector<std::string> finished_ids(const RunFlags& flags, const config::Config& config, const run::Plan& plan);

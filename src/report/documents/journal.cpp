@@ -1,6 +1,7 @@
 #include "report/documents/journal.h"
 
 #include <functional>
+#include <initializer_list>
 #include <set>
 
 #include "config/schema/documents.h"
@@ -64,6 +65,20 @@ bool is_broken_case(const Json& entry) {
   return value_at(entry, "/broken/id") != nullptr;
 }
 
+Json without(Json header, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) header.erase(key);
+  return header;
+}
+
+// Of a file of a run that is the same but for the machine.
+bool is_of_other_machine(const std::string& text, const Json& header) {
+  const Json first = json_or_discarded<Json>(std::string_view(text).substr(0, text.find('\n')));
+  const Json* earlier = value_at(first, "/header");
+  return earlier != nullptr && earlier->is_object() && header.is_object() && earlier->contains("machine") &&
+         header.contains("machine") && (*earlier)["machine"] != header["machine"] &&
+         without(*earlier, {"machine", "device"}) == without(header, {"machine", "device"});
+}
+
 std::string device_name(const Json& header) {
   if (!header.contains("device")) return "no device";
   const Json* name = value_at(header, "/device/name");
@@ -72,11 +87,9 @@ std::string device_name(const Json& header) {
 
 // The reason why a run cannot go on if nothing but its device differs, since a result is of one; "" if it is the same.
 std::string other_device(const Json& earlier, const Json& now) {
-  const auto without = [](Json header) {
-    header.erase("device");
-    return header;
-  };
-  if (!earlier.is_object() || !now.is_object() || earlier == now || without(earlier) != without(now)) return "";
+  if (!earlier.is_object() || !now.is_object() || earlier == now ||
+      without(earlier, {"device"}) != without(now, {"device"}))
+    return "";
   const bool has_one_name = device_name(earlier) == device_name(now);
   return "is an interrupted run on " + device_name(earlier) + ", and this one is on " +
          (has_one_name ? "another device or driver of that name" : device_name(now)) +
@@ -152,8 +165,10 @@ std::vector<std::string> finished_ids(const fs::path& file, const Json& header) 
   if (!fs::exists(fs::symlink_status(partial, none))) return ids;
   if (!fs::is_regular_file(fs::symlink_status(partial, none)))
     throw Error(partial.string(), "", "is no regular file, and a run leaves no other");
+  const std::string text = file_text(partial.string());
+  if (is_of_other_machine(text, header)) return ids;
   std::set<std::string> known;
-  each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
+  each_entry(text, partial, header, [&](const Json& entry) {
     if (entry.contains("broken")) {
       if (!is_broken_case(entry)) return false;
       if (const Json& id = entry["broken"]["id"]; id.is_string()) ids.push_back(id);
@@ -170,7 +185,8 @@ std::vector<std::string> finished_ids(const fs::path& file, const Json& header) 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
     : file_(file), partial_(partial_of(file)) {
   os::OutputFile(file_).probe();
-  if (resume)
+  is_set_aside_of_other_machine_ = resume && is_of_other_machine(partial_.text(), header);
+  if (resume && !is_set_aside_of_other_machine_)
     read_earlier(header);
   else
     set_earlier_aside(header_line(header));

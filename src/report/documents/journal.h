@@ -26,7 +26,8 @@ std::vector<std::string> finished_ids(const std::filesystem::path& file, const n
 class Journal {
  public:
   // Starts FILE.partial, or with `resume` continues it. `header` describes the run: an interrupted run continues only
-  // with an equal header. Without `resume` the file of an earlier run is moved aside. `expected_bytes`: estimated size
+  // with an equal header. Without `resume` the file of an earlier run is moved aside, and with it if the headers differ
+  // in "machine" (and "device") alone: times of two machines are not mixed. `expected_bytes`: estimated size
   // of the result; too little disk space is an Error now, not later. Throws Error as well if the file cannot be
   // written, if another run is writing it, and with `resume` if the file has a line, other than the last, that no run
   // writes.
@@ -45,8 +46,9 @@ class Journal {
 
   // The file with the finished cases of an earlier run; "" if there were none, or if this run continues with them.
   const std::filesystem::path& set_aside() const { return set_aside_; }
-  // Whether that was left by a run.
+  // Whether that was left by a run, and whether on another machine.
   bool is_set_aside_of_run() const { return is_set_aside_of_run_; }
+  bool is_set_aside_of_other_machine() const { return is_set_aside_of_other_machine_; }
 
   void add_case(const result::Case& finished);
   void add_broken(const result::BrokenCase& broken);
@@ -72,7 +74,7 @@ class Journal {
   bool accept_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
-  bool is_set_aside_of_run_ = false;
+  bool is_set_aside_of_run_ = false, is_set_aside_of_other_machine_ = false;
   os::LockedFile partial_;
   bool has_added_ = false, is_finished_ = false;
   std::vector<result::Case> earlier_cases_;
