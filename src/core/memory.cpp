@@ -35,9 +35,12 @@ void check_memory(const char* name, std::uint64_t entries, std::uint64_t entry_b
   const bool overflows = entry_bytes != 0 && entries > k_most / entry_bytes;
   const std::uint64_t bytes = overflows ? k_most : entries * entry_bytes;
   if (bytes <= memory_limit()) return;
+  std::string needed = size_text(bytes);
+  const std::string allowed = size_text(memory_limit());
+  if (needed == allowed) needed = std::to_string(bytes) + " bytes";
   throw Error("", "limits.memory_mib",
-              std::to_string(entries) + " " + name + " would take " + size_text(bytes) + ", and " +
-                  size_text(memory_limit()) + " are allowed; raise the limit, or " + remedy);
+              std::to_string(entries) + " " + name + " would take " + needed + ", and " + allowed +
+                  " are allowed; raise the limit, or " + remedy);
 }
 
 }  // namespace clusterbench

@@ -32,13 +32,13 @@ struct ThreadPool::Arena {
     const Work& work;
     const std::size_t count;
     const int threads;  // at most so many take part
-    const Job* outer;   // at whose work the caller is; null: at none
+    const Job* outer;   // the call within whose work this one is; null: none
     std::atomic<std::size_t> next = 0;
-    int helpers = 0;  // threads at it beside the caller
+    int helping = 0;  // threads that take part beside the caller
     std::mutex failing{};
     std::exception_ptr failure{};  // the first one
 
-    bool is_open() const { return next < count && helpers + 1 < threads; }
+    bool is_open() const { return next < count && helping + 1 < threads; }
     bool is_within(const Job& other) const {
       for (const Job* job = outer; job != nullptr; job = job->outer)
         if (job == &other) return true;
@@ -56,7 +56,7 @@ struct ThreadPool::Arena {
     }
   };
 
-  // At whose work this thread is. Work within it is done by the same threads.
+  // The call whose work this thread is doing; null: none. Work within it is done by the same threads.
   static thread_local const Job* current;
 
   explicit Arena(int helper_count) {
@@ -65,16 +65,12 @@ struct ThreadPool::Arena {
       for (int i = 0; i < helper_count; ++i) helpers.emplace_back([this] { help(); });
     } catch (const std::system_error&) {
       // The system allows no more: those that it has started do all.
+    } catch (...) {
+      stop();
+      throw;
     }
   }
-  ~Arena() {
-    {
-      const std::lock_guard lock(mutex);
-      is_ending = true;
-    }
-    changed.notify_all();
-    for (std::thread& helper : helpers) helper.join();
-  }
+  ~Arena() { stop(); }
 
   void run(std::size_t count, int threads, const Work& work) {
     Job job{*this, work, count, threads, current};
@@ -86,30 +82,38 @@ struct ThreadPool::Arena {
     job.take_part();
     std::unique_lock lock(mutex);
     std::erase(jobs, &job);
-    while (job.helpers > 0)
+    while (job.helping > 0)
       if (!help_with(&job, lock)) changed.wait(lock);
     if (job.failure) std::rethrow_exception(job.failure);
   }
 
  private:
+  void stop() {
+    {
+      const std::lock_guard lock(mutex);
+      is_ending = true;
+    }
+    changed.notify_all();
+    for (std::thread& helper : helpers) helper.join();
+  }
   void help() {
     std::unique_lock lock(mutex);
     while (!is_ending)
       if (!help_with(nullptr, lock)) changed.wait(lock);
   }
-  // Takes part in the newest job within `outer`, whose caller may hold locks that others need; null: in any. False if
-  // there is none.
+  // Takes part in the newest call that threads may join; false if there is none. `outer`: only in calls within its
+  // work, since its caller may hold locks that other work needs; null: in any.
   bool help_with(const Job* outer, std::unique_lock<std::mutex>& lock) {
     const auto newest = std::find_if(jobs.rbegin(), jobs.rend(), [&](const Job* job) {
       return job->is_open() && (outer == nullptr || job->is_within(*outer));
     });
     if (newest == jobs.rend()) return false;
     Job& job = **newest;
-    ++job.helpers;
+    ++job.helping;
     lock.unlock();
     job.take_part();
     lock.lock();
-    --job.helpers;
+    --job.helping;
     changed.notify_all();
     return true;
   }

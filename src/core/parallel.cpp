@@ -32,8 +32,8 @@ class SharedWork {
   SharedWork(const SharedWork&) = delete;
   ~SharedWork() { acquire(&done_); }
 
-  // Within work of as many threads all is done in their arena: threads that have nothing left to do there take part,
-  // and oneTBB has no others. A thread that waits for all of it does no other work meanwhile, since it may hold locks.
+  // Work within work of as many threads stays in their arena, where idle threads take part: for another arena oneTBB
+  // would have none left. It is isolated: a thread that waits for it, and may hold locks, does no other work meanwhile.
   template <class All>
   void run(oneapi::tbb::task_arena& arena, const All& all) const {
     if (threads_here == threads_)
@@ -101,7 +101,10 @@ int allowed_threads(int wanted) {
 int workers(int threads) {
   using oneapi::tbb::global_control;
   static const int most = allowed_threads(oneapi::tbb::info::default_concurrency());
-  static const global_control limit(global_control::max_allowed_parallelism, static_cast<std::size_t>(most));
+  // Never removed: without it oneTBB would start more threads, at the end of the process, too.
+  static const auto* limit =
+      new global_control(global_control::max_allowed_parallelism, static_cast<std::size_t>(most));
+  static_cast<void>(limit);
   return std::min(threads, most);
 }
 

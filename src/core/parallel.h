@@ -12,8 +12,11 @@ namespace clusterbench {
 void parallel_ranges(std::size_t count, int threads,
                      const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-// Persistent threads for short work that is repeated often. parallel.cpp makes them of oneTBB, for the program;
-// own_threads.cpp of std::thread, for the library, which needs no other one.
+// Persistent threads for short work that is repeated often. Pools may be used within the work of others, with locks
+// held, too; the threads are then those of the outermost pool, at most as many as both have. With oneTBB a thread that
+// waits for an outermost call may meanwhile do work of another thread's call: do not hold a lock there that such work
+// needs. parallel.cpp makes them of oneTBB, for the program; own_threads.cpp of std::thread, for the library, which
+// needs no other one.
 class ThreadPool {
  public:
   explicit ThreadPool(int threads);

@@ -216,7 +216,8 @@ class Run {
     for (std::size_t i = 0; config_.timing.measure && i < groups.size() && !stop_; ++i) finish(i);
   }
 
-  // On all threads, while none of them waits for it. What it throws, the first group throws again.
+  // Before the groups share the threads, since all would only wait for it. What it throws, the first group throws
+  // again.
   void make_first_path(const std::vector<GroupPlan>& groups) {
     try {
       paths_.of(groups.front());

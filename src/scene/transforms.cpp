@@ -308,7 +308,7 @@ class NodeTransforms {
 
   // The direction of its z axis.
   Vec3d back_of(std::size_t node, const Mat4d& world) const {
-    if (!has_flat_) return Vec3d(world[2]);
+    if (!has_flat_ || !is_in_flat_chain(node)) return Vec3d(world[2]);
     const auto node_of = [&](int index) { return posed_[static_cast<std::size_t>(index)]; };
     return unflattened_axes(static_cast<int>(node), node_of)[2];
   }
@@ -320,6 +320,13 @@ class NodeTransforms {
   }
 
  private:
+  // Only then: a node elsewhere that is hidden by a scale of 0 changes no bit of this one's lights.
+  bool is_in_flat_chain(std::size_t node) const {
+    for (int index = static_cast<int>(node); index >= 0; index = posed_[static_cast<std::size_t>(index)].parent)
+      if (is_flat(posed_[static_cast<std::size_t>(index)])) return true;
+    return false;
+  }
+
   const Poses& posed_;
   std::vector<std::int32_t> kept_at_;
   std::vector<Mat4d> kept_;

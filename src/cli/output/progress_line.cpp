@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <system_error>
 
 #include "core/text.h"
 
@@ -22,7 +23,12 @@ std::string minutes_and_seconds(double seconds) {
 
 ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds print_every)
     : terminal_(terminal), quiet_(quiet), print_every_(print_every) {
-  if (!quiet_ && !terminal_.interactive) printer_ = std::thread([this] { print_when_silent(); });
+  if (quiet_ || terminal_.interactive) return;
+  try {
+    printer_ = std::thread([this] { print_when_silent(); });
+  } catch (const std::system_error&) {
+    // The system allows no more threads: the line is printed as work is done, never between.
+  }
 }
 
 ProgressLine::~ProgressLine() {

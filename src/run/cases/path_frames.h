@@ -32,9 +32,9 @@ struct FrameReaction {
 
 class PathFrames {
  public:
-  // All must outlive this object. Without `depths` its frames have none. `threads`: for what all frames are needed for,
-  // and for the depths that grids follow; results do not depend on it. `visible_sets`: of the scene, if a pre-cull
-  // needs them.
+  // All must outlive this object. Without `depths` its frames have none. `threads`: used where all frames are
+  // looked at, and for the depths that grids follow; results do not depend on it. `visible_sets`: of the scene, if a
+  // pre-cull needs them.
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
              int threads = 1, SceneVisibleSets* visible_sets = nullptr);
 

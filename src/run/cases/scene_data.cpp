@@ -46,6 +46,10 @@ scene::Scene resolved_scene(const config::SceneRequest& request) {
   return scene;
 }
 
+void check_paths(const SceneData& data, int threads) {
+  for (const scene::CameraPath& path : data.paths) scene::check_domain(data.scene, path, threads);
+}
+
 // Sets the numbers that depend on how many lights reach a point: fewer frames, and grids that are not compared cell by
 // cell.
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
@@ -60,14 +64,12 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
   data.requested_frames = request.camera.count;
   data.equal_steps = fewer.count;
   data.paths = scene::camera_paths(data.scene, fewer);
+  check_paths(data, config.threads);
 }
 
-void check_and_name_paths(SceneData& data, int threads) {
+void name_paths(SceneData& data) {
   UniqueNames cameras;
-  for (scene::CameraPath& path : data.paths) {
-    scene::check_domain(data.scene, path, threads);
-    path.camera = cameras.add(name_part(path.camera));
-  }
+  for (scene::CameraPath& path : data.paths) path.camera = cameras.add(name_part(path.camera));
 }
 
 double lowest_height(const SceneData& data) {
@@ -103,8 +105,9 @@ SceneData scene_data(const config::Config& config, const config::SceneRequest& r
   data.scene = resolved_scene(request);
   data.scene.name = names.add(name_part(data.scene.name));
   data.paths = scene::camera_paths(data.scene, request.camera);
+  check_paths(data, config.threads);
   weigh_frames(config, request, data);
-  check_and_name_paths(data, config.threads);
+  name_paths(data);
   data.counts_triangles = needs_triangles(config);
   const bool reads_triangles = std::ranges::any_of(config.reading_sets, &config::SampleSetRequest::needs_triangles);
   if ((data.counts_triangles || reads_triangles) && !request.rig) {
