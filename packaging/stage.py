@@ -44,7 +44,7 @@ The libraries of others in lib/ get no security updates by themselves: for these
 their versions. (The Debian package uses the system's libraries, which are updated with the system.)
 """
 
-WINDOWS_NEEDS = "It needs 64-bit Windows 10 or later and nothing else. docs/systems.md says what is not in it."
+WINDOWS_NEEDS = "It needs 64-bit Windows 10, version 1903, or later, and nothing else. docs/systems.md says what is not in it."
 
 
 def settle(folder, seconds):

@@ -227,7 +227,11 @@ class MeasuredRun {
       return os::stopped_exit_code();
     }
     const ExitCode code = report_verdicts(verdicts, result);
-    if (!flags_.quiet) print_next(result);
+    if (!flags_.quiet)
+      print_next(result);
+    else if (const std::size_t budgets = config_.limits.fail_if.size(); plan_.shard && budgets > 0)
+      print_message("note: " + number_of(budgets, "budget") +
+                    " (--fail-if) not decided in a shard; clusterbench merge decides");
     if (!result.cases.empty() || result.broken || plan_.case_count() == 0) return code;
     print_message("no case was measured to the end");  // a device ended them all
     return ExitCode::usage;

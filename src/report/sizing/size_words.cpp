@@ -24,7 +24,7 @@ std::string rounding_text(const AllocationRules& rules) {
   return text("%g", rules.margin) + rounding;
 }
 
-std::string growth_text(const SizedBuffer& buffer) {
+std::string growth_text(const SizedBuffer& buffer, std::uint64_t frames) {
   std::string out;
   for (const Growth& growth : buffer.growth)
     if (growth.every > 1)
@@ -38,6 +38,8 @@ std::string growth_text(const SizedBuffer& buffer) {
   if (!buffer.growth.empty() &&
       static_cast<double>(buffer.high_water) > k_still * static_cast<double>(buffer.growth[2].high_water))
     out += ": STILL GROWING, count more frames (of the scene, not of its result)";
+  else if (constexpr std::uint64_t k_few = 30; frames < k_few && buffer.depends_on_view && !buffer.is_all())
+    out += ": too few to tell whether other frames need more";
   return out;
 }
 
@@ -47,7 +49,8 @@ std::string seen_text(const SizedBuffer& buffer, const SizedStructure& structure
   if (!buffer.why_sum.empty())
     return std::to_string(buffer.high_water) + " in " + frames + ", if each view needs its most at the same time (" +
            buffer.why_sum + ", so that frames cannot be paired)";
-  std::string out = std::to_string(buffer.high_water) + " in " + frames + growth_text(buffer);
+  std::string out =
+      std::to_string(buffer.high_water) + " in " + frames + growth_text(buffer, structure.frames_of(buffer));
   if (buffer.apart > buffer.high_water)
     out += "; " + std::to_string(buffer.apart) + " if each view needed its most at the same time";
   if (!buffer.has_times) out += " (the result does not tell whether frames of one number are of one time)";
