@@ -94,6 +94,31 @@ TEST(Run, of_two_scenes_with_one_name_each_launch_measures_the_right_one) {
   EXPECT_EQ(cases[0]["timing"]["launches"], 2);
 }
 
+// Not in quiet runs alone: what estimates the duration meets the same obstacle before, in another case.
+TEST(Run, what_cannot_be_counted_is_the_same_error_with_the_same_cases_on_any_number_of_threads) {
+  const Folder folder;
+  const std::string config = folder
+                                 .write("large.json", R"({
+      "scenes": [{"rig": {"lights": [100, 1000], "spots": 0.3, "range": [3, 15], "size": [60, 10, 60]}}],
+      "viewports": [[320, 200]],
+      "grids": [{"tiles": {"count": [4, 4]}}, {"kind": "world", "cells": [64, 16, 64]}],
+      "assigners": ["exact-fast", "world-grid"], "limits": {"memory_mib": 1}})")
+                                 .string();
+  std::string first, cases;
+  for (const char* threads : {"1", "2", "8", "64"}) {
+    const std::string out = (folder / (std::string("r") + threads + ".json")).string();
+    const Outcome done = tool("run " + config + " --no-timing --threads " + threads + " -o " + out);
+    EXPECT_NE(done.code, 0);
+    std::string error = done.err.substr(done.err.rfind("clusterbench: rig-100"));
+    error = error.substr(0, error.find("; what was measured"));
+    EXPECT_NE(error.find("/world 64x16x64/world-grid/packed: limits.memory_mib: "), std::string::npos) << done.err;
+    const std::string kept = file_text(out + ".partial");
+    if (first.empty()) first = error, cases = kept;
+    EXPECT_EQ(error, first) << threads;
+    EXPECT_EQ(kept, cases) << threads;
+  }
+}
+
 TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {
   const Folder folder;
   const std::string config = folder.write("small.json", small_config()).string();

@@ -300,11 +300,20 @@ TEST_F(ShardedRun, resumes_what_it_had_begun_and_no_other_shard) {
   EXPECT_EQ(file_text(folder_ / "t.json"), done);
 }
 
+TEST_F(ShardedRun, says_also_when_quiet_that_budgets_wait_for_the_merge) {
+  const Outcome done = run(config(), "--shard 1/2 --fail-if 'longest > 0'", "1.json");
+  EXPECT_EQ(done.code, 0);
+  EXPECT_NE(done.err.find("note: 1 budget (--fail-if) not decided in a shard; clusterbench merge decides"),
+            std::string::npos)
+      << done.err;
+}
+
 TEST_F(ShardedRun, tells_beforehand_what_each_shard_takes) {
   const std::string sweep = config();
   const Outcome dry = tool("run " + sweep + " --no-timing --dry-run --shard 2/3");
   ASSERT_EQ(dry.code, 0) << dry.err;
-  for (const char* line : {"  shard 1 of 3: ", "* shard 2 of 3: ", "  shard 3 of 3: "})
+  for (const char* line :
+       {"  shard 1 of 3: ", "* shard 2 of 3: ", "  shard 3 of 3: ", "  on 3 machines like this one: "})
     EXPECT_NE(dry.err.find(line), std::string::npos) << dry.err;
   ASSERT_EQ(run(sweep, "--shard 2/3", "2.json").code, 0);
   const Json cases = read("2.json")["cases"];
