@@ -7,7 +7,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <future>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -101,10 +104,11 @@ int allowed_threads(int wanted) {
 int workers(int threads) {
   using oneapi::tbb::global_control;
   static const int most = allowed_threads(oneapi::tbb::info::default_concurrency());
-  // Never removed: without it oneTBB would start more threads, at the end of the process, too.
-  static const auto* limit =
-      new global_control(global_control::max_allowed_parallelism, static_cast<std::size_t>(most));
-  static_cast<void>(limit);
+  // Never destroyed: without it oneTBB would start more threads, at the end of the process, too.
+  alignas(global_control) static std::array<std::byte, sizeof(global_control)> limit;
+  static const bool is_limited = new (limit.data()) global_control(global_control::max_allowed_parallelism,
+                                                                   static_cast<std::size_t>(most)) != nullptr;
+  static_cast<void>(is_limited);
   return std::min(threads, most);
 }
 
