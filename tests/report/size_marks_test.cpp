@@ -158,6 +158,12 @@ TEST(SizeMarks, high_water_of_fewer_frames_shows_whether_more_would_find_more) {
   EXPECT_NE(grows.find("90 in 33 frames; of every 8th frame 60, 4th 70, 2nd 80: STILL GROWING"), std::string::npos)
       << grows;
   EXPECT_NE(stays.find("of every 8th frame 50, 4th 50, 2nd 50\n"), std::string::npos) << stays;
+  for (const std::size_t frames : {std::size_t{1}, std::size_t{20}, std::size_t{29}}) {
+    std::vector<std::uint64_t> few(frames, 50);
+    few.back() = 49 + (frames == 1);
+    const std::string text = marks_of(result_of_cameras({camera_of_marks("walk", few)}), marks_request("table"));
+    EXPECT_NE(text.find(": too few to tell whether other frames need more\n"), std::string::npos) << text;
+  }
 }
 
 SizeRequest with_views(const std::vector<std::string>& views) {
