@@ -12,6 +12,14 @@ namespace {
 
 Json list_to_json(const Type& type, const void* list, bool is_fraction, int threads);
 
+// An object to which so many members are added at its end. Room for all of them is made at once: members cannot be
+// moved, and an object that grows would copy each with all that it holds.
+Json::object_t members_of(std::size_t count) {
+  Json::object_t members;
+  members.reserve(count);
+  return members;
+}
+
 Json value_to_json(const Type& type, const void* value, bool is_in_fractions, int threads = 1) {
   const bool is_fraction = is_in_fractions || type.about.is_fraction;
   switch (type.kind) {
@@ -29,7 +37,7 @@ Json value_to_json(const Type& type, const void* value, bool is_in_fractions, in
 
 Json list_to_json(const Type& type, const void* list, bool is_fraction, int threads) {
   if (type.kind == Kind::by_name) {
-    Json out = Json::object();
+    Json::object_t out = members_of(type.size(list));
     for (std::size_t i = 0; i < type.size(list); ++i)
       out[type.name_at(list, i)] = value_to_json(*type.element, type.at(list, i), is_fraction);
     return out;
@@ -135,10 +143,10 @@ Json number_json(double value, bool is_fraction) {
 }
 
 Json to_json(const Type& type, const void* record, int threads) {
-  Json out = Json::object();
+  Json::object_t out = members_of(type.fields.size());
   for (const Field& field : type.fields)
     if (const void* value = field.get(record))
-      out[field.name] = value_to_json(*field.type, value, field.about.is_fraction, threads);
+      out.emplace_back(field.name, value_to_json(*field.type, value, field.about.is_fraction, threads));
   return out;
 }
 
