@@ -110,7 +110,7 @@ class Run {
     out.shard = plan_.shard;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i], config_.viewports));
+      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i], config_.viewports, config_.threads));
       if (listener_.on_scene) listener_.on_scene(out.scenes.back());
     }
     for (const GroupPlan& group : plan_.groups)

@@ -71,12 +71,9 @@ std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
   return text;
 }
 
-}  // namespace
-
-std::string dark_lights(const SceneData& data) {
-  const auto [dark, without_range] = scene::count_dark_lights(data.scene);
-  if (dark == 0) return "";
-  const auto lights = std::ranges::count_if(data.scene.lights, [](const scene::Light& light) {
+std::string dark_text(const scene::DarkLights& of_scene, const scene::Scene& scene) {
+  const auto [dark, without_range] = of_scene;
+  const auto lights = std::ranges::count_if(scene.lights, [](const scene::Light& light) {
     return light.type == scene::LightType::point || light.type == scene::LightType::spot;
   });
   std::string out = std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
@@ -93,8 +90,15 @@ std::string dark_lights(const SceneData& data) {
                 "them, and sizes are without them; with ranges, and visible, they are sized for when they are on");
 }
 
+}  // namespace
+
+std::string dark_lights(const SceneData& data) {
+  const scene::DarkLights dark = scene::count_dark_lights(data.scene);
+  return dark.all == 0 ? "" : dark_text(dark, data.scene);
+}
+
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
-                         const std::vector<Vec2i>& viewports) {
+                         const std::vector<Vec2i>& viewports, int threads) {
   SceneResult out;
   if (request.rig) out.rig = rig_json(*request.rig);
   const scene::Scene& scene = data.scene;
@@ -102,8 +106,9 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   out.sha256 = scene.sha256;
   out.warnings = scene.warnings;
   out.boxes = static_cast<int>(scene.boxes.size());
-  out.light_digest = scene::light_digest(scene);
-  out.dark = scene::count_dark_lights(scene).all;
+  out.light_digest = scene::light_digest(scene, threads);
+  const scene::DarkLights dark = scene::count_dark_lights(scene, threads);
+  out.dark = dark.all;
   int given = 0, from_intensity = 0, clamped = 0;
   std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {
@@ -126,7 +131,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
   if (const std::string why = scene::why_no_lights(scene); !request.rig && !why.empty()) out.warnings.push_back(why);
-  if (const std::string dark = dark_lights(data); !dark.empty()) out.warnings.push_back(dark);
+  if (dark.all > 0) out.warnings.push_back(dark_text(dark, scene));
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
   for (const std::string& text : {lights_after_path(data), without_field_of_view(data, request), fewer_frames(data)})
     if (!text.empty()) out.warnings.push_back(text);

@@ -10,7 +10,7 @@
 namespace clusterbench::run {
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
-                         const std::vector<Vec2i>& viewports);
+                         const std::vector<Vec2i>& viewports, int threads);
 
 // The measured cameras of a scene without a field of view that a request could set; "" if no field of view is requested
 // or all cameras have one: "--fov changes nothing ...".

@@ -8,12 +8,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
+#include <mutex>
 #include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/sha256.h"
 
 namespace clusterbench::scene {
@@ -111,18 +112,35 @@ void add_state(const State& state, Sha256& digest) {
   }
 }
 
+using StateAt = std::function<State(double time_s)>;
+
+// The states at some moments.
+std::vector<State> states_at(std::span<const double> times_s, const StateAt& state_at, int threads) {
+  std::vector<State> states(times_s.size());
+  parallel_ranges(states.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) states[i] = state_at(times_s[i]);
+  });
+  return states;
+}
+
 // The states that the channels give to a light or camera, at each moment.
-void add_states(const Scene& scene, const Channels& channels, const std::function<State(double time_s)>& state_at,
-                Sha256& digest) {
+void add_states(const Scene& scene, const Channels& channels, const StateAt& state_at, Sha256& digest,
+                int threads = 1) {
+  constexpr std::size_t k_most_numbers_at_once = std::size_t{1} << 20;
   const Moments moments = moments_of(scene, channels);
   State last = state_at(moments.times_s.front());
   for (int i = 0; i < 3; ++i) add_state(last, digest);  // as in older results for lights that never move
-  for (const double time_s : std::span(moments.times_s).subspan(1)) {
-    State now = state_at(time_s);
-    if (now == last) continue;
-    digest.add("at " + std::to_string(bits_of(time_s, 0.0)) + " ");
-    add_state(now, digest);
-    last = std::move(now);
+  const std::size_t at_once = std::max<std::size_t>(1, k_most_numbers_at_once / std::max<std::size_t>(1, last.size()));
+  for (std::size_t begin = 1; begin < moments.times_s.size(); begin += at_once) {
+    const std::span times_s = std::span(moments.times_s).subspan(begin);
+    const auto some_s = times_s.first(std::min(at_once, times_s.size()));
+    std::vector<State> states = states_at(some_s, state_at, threads);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (states[i] == last) continue;
+      digest.add("at " + std::to_string(bits_of(some_s[i], 0.0)) + " ");
+      add_state(states[i], digest);
+      last = std::move(states[i]);
+    }
   }
   if (moments.are_all) return;
   for (const Channel* channel : channels) {
@@ -191,10 +209,10 @@ State camera_at(const Scene& scene, const Camera& camera, double time_s) {
 
 }  // namespace
 
-std::string light_digest(const Scene& scene) {
+std::string light_digest(const Scene& scene, int threads) {
   Sha256 digest;
   add_states(
-      scene, channels_of_lights(scene), [&](double time_s) { return lights_at(scene, time_s); }, digest);
+      scene, channels_of_lights(scene), [&](double time_s) { return lights_at(scene, time_s); }, digest, threads);
   if (const auto directionals = std::ranges::count(scene.lights, LightType::directional, &Light::type);
       directionals > 0)
     digest.add("directional " + std::to_string(directionals));
@@ -217,22 +235,35 @@ bool is_dark(const WorldLight& light) {
   return is_black(light) || !(light.range_m > 0.0);
 }
 
-DarkLights count_dark_lights(const Scene& scene) {
+DarkLights count_dark_lights(const Scene& scene, int threads) {
   struct AtAnyTime {
-    bool shines = false, has_range = false;
+    bool is_assigned = false, shines = false, has_range = false;
   };
-  std::map<int, AtAnyTime> lights;  // by index in the scene
-  for (const double time_s : moments_of(scene, channels_of_lights(scene)).times_s)
-    for (const WorldLight& light : world_lights(scene, time_s)) {
-      if (light.type == LightType::box) continue;
-      AtAnyTime& seen = lights[light.rig_index];
-      seen.shines = seen.shines || !is_dark(light);
-      seen.has_range = seen.has_range || light.range_m > 0.0;
+  std::vector<AtAnyTime> lights(scene.lights.size());
+  const std::vector<double> times_s = moments_of(scene, channels_of_lights(scene)).times_s;
+  std::mutex adding;
+  parallel_ranges(times_s.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<AtAnyTime> some(lights.size());
+    for (std::size_t i = begin; i < end; ++i)
+      for (const WorldLight& light : world_lights(scene, times_s[i])) {
+        if (light.type == LightType::box) continue;
+        AtAnyTime& seen = some[static_cast<std::size_t>(light.rig_index)];
+        seen.is_assigned = true;
+        seen.shines = seen.shines || !is_dark(light);
+        seen.has_range = seen.has_range || light.range_m > 0.0;
+      }
+    const std::lock_guard lock(adding);
+    for (std::size_t light = 0; light < lights.size(); ++light) {
+      AtAnyTime& seen = lights[light];
+      seen = {seen.is_assigned || some[light].is_assigned, seen.shines || some[light].shines,
+              seen.has_range || some[light].has_range};
     }
+  });
   DarkLights dark;
-  for (const auto& [_, seen] : lights) {
-    if (!seen.shines) ++dark.all;
-    if (!seen.shines && !seen.has_range) ++dark.without_range;
+  for (const AtAnyTime& seen : lights) {
+    const bool is_dark = seen.is_assigned && !seen.shines;
+    if (is_dark) ++dark.all;
+    if (is_dark && !seen.has_range) ++dark.without_range;
   }
   return dark;
 }

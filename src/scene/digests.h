@@ -12,7 +12,7 @@ namespace clusterbench::scene {
 // number of directional lights. Names, order, other colours and brightness, surfaces, cameras and their animations do
 // not count. All numbers are rounded to single precision, so that a file may write more digits, or a node's transform
 // as a matrix. The same motion with other keys counts as a different one.
-std::string light_digest(const Scene& scene);
+std::string light_digest(const Scene& scene, int threads = 1);
 
 // 16 hexadecimal digits from a camera's position, orientation and projection, at every key of the animations that move
 // it and in the middles between keys. The number of measured moments does not count.
@@ -30,6 +30,6 @@ bool is_dark(const WorldLight& light);
 struct DarkLights {
   int all = 0, without_range = 0;
 };
-DarkLights count_dark_lights(const Scene& scene);
+DarkLights count_dark_lights(const Scene& scene, int threads = 1);
 
 }  // namespace clusterbench::scene

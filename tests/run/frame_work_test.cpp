@@ -50,7 +50,7 @@ TEST(FrameWork, fewer_frames_are_told_and_are_the_same_cases_as_so_many_asked_fo
   const std::string told = fewer_frames(plan.scenes[0]);
   EXPECT_TRUE(told.starts_with("measured in 6 frames and not in 30")) << told;
   EXPECT_NE(told.find("--set 'scenes.*.frames=30'"), std::string::npos) << told;
-  EXPECT_EQ(scene_result(plan.scenes[0], few.scenes[0], few.viewports).warnings.back(), told);
+  EXPECT_EQ(scene_result(plan.scenes[0], few.scenes[0], few.viewports, 1).warnings.back(), told);
   const Plan six = make_plan(street(R"(, "assigners": ["aabb"])", "6"), "");
   EXPECT_EQ(plan.groups[0].cases[0].id, six.groups[0].cases[0].id);
   const Plan all = make_plan(street(R"(, "assigners": ["aabb"])", R"({"most": 30, "lights": 1e6})"), "");

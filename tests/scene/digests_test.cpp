@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "effort.h"
 #include "scene/rig.h"
 
 namespace clusterbench::scene {
@@ -164,6 +165,24 @@ TEST(LightDigest, is_another_for_each_of_more_keys_than_are_asked_for) {
     values[key].y = 40.0;
     EXPECT_NE(light_digest(with_motion(rig_of(5), 2, times, values)), light_digest(scene));
     values[key].y = 0.0;
+  }
+}
+
+// So many lights that the moments are taken some at a time.
+TEST(LightDigest, and_dark_lights_are_the_same_on_any_number_of_threads) {
+  std::vector<double> times;
+  std::vector<Vec4d> values;
+  for (int i = 0; i < 60; ++i) {
+    times.push_back(0.1 * i);
+    values.push_back(at(0.25 * i, i % 7, 0));
+  }
+  Scene scene = with_motion(rig_of(clusterbench::test::k_sanitized ? 500 : 20000), 2, times, values);
+  for (const std::size_t dark : {0u, 7u, 41u}) scene.lights[dark].intensity = 0.0;
+  const std::string one = light_digest(scene);
+  EXPECT_EQ(count_dark_lights(scene).all, 3);
+  for (const int threads : {2, 3, 16}) {
+    EXPECT_EQ(light_digest(scene, threads), one) << threads;
+    EXPECT_EQ(count_dark_lights(scene, threads).all, 3) << threads;
   }
 }
 

@@ -72,7 +72,8 @@ void print_plan(const RunFlags& flags, const config::Config& config, run::Plan p
                              : std::string())
             << ", " << plan.skipped.size() << " skipped; takes " << duration << "\n";
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
-    const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
+    const run::SceneResult scene =
+        run::scene_result(plan.scenes[i], config.scenes[i], config.viewports, config.threads);
     for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);
   }
 }
