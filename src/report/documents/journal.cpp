@@ -96,6 +96,19 @@ std::string other_device(const Json& earlier, const Json& now) {
          "; --device NAME takes the same one, where it is there";
 }
 
+// The parts of two runs that differ, for the user.
+std::vector<std::string> differences(const Json& earlier, const Json& now) {
+  const std::pair<const char*, const char*> parts[] = {
+      {"config", "configuration"}, {"filter", "--filter"}, {"shard", "--shard"}, {"count", "--count"},
+      {"scenes", "scene"},         {"plugins", "plug-in"}, {"methods", "shader"}};
+  std::vector<std::string> out;
+  if (earlier.is_object())
+    for (const auto& [key, name] : parts)
+      if (earlier.value(key, Json()) != now.value(key, Json())) out.emplace_back(name);
+  if (out.empty()) out.emplace_back("build");
+  return out;
+}
+
 // Calls accept(entry) for each line after the header; it returns false for a line that no run writes. Returns the end
 // of the last complete line.
 std::size_t each_entry(const std::string& text, const fs::path& path, const Json& header,
@@ -118,7 +131,7 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     if (number == 1)
       if (const std::string other = other_device(entry["header"], header); !other.empty()) refuse(other);
     if (number == 1 && entry["header"] != header)
-      refuse("is an interrupted run of another configuration, --count, --shard, scene or build");
+      refuse("is an interrupted run of another " + joined(differences(entry["header"], header), " and "));
     if (entry.is_object() && !is_sealed(line)) refuse("is not what a run writes; it was changed");
     if (number > 1 && !(entry.is_object() && accept(entry)))
       refuse(value_at(entry, "/case/id") != nullptr ? "has a case that an earlier line has; remove one of the two"
