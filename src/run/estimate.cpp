@@ -145,17 +145,21 @@ GroupCost cost_of_group(const config::Config& config, int threads, const Plan& p
 // in the order of its cases.
 GroupCost cost_of_what_runs(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
                             double sweep_ns, const EstimateLimits& limits) {
-  try {
-    return cost_of_group(config, threads, plan, group, sweep_ns, limits);
-  } catch (const gpu::DeviceError&) {
-    gpu::close_device();
-    const GroupPlan others = processor_cases(config, group);
-    return others.cases.empty() ? GroupCost{} : cost_of_group(config, threads, plan, others, sweep_ns, limits);
-  } catch (const assign::MethodError&) {
-    return {};
-  } catch (const Error&) {
-    return {};
+  for (GroupPlan left = group; !left.cases.empty();) {
+    try {
+      return cost_of_group(config, threads, plan, left, sweep_ns, limits);
+    } catch (const gpu::DeviceError&) {
+      gpu::close_device();
+      GroupPlan others = processor_cases(config, left);
+      if (others.cases.size() == left.cases.size()) break;
+      left = std::move(others);
+    } catch (const assign::MethodError&) {
+      break;
+    } catch (const Error&) {
+      break;
+    }
   }
+  return {};
 }
 
 // Groups whose costs are sampled at the same time: one, where something is timed.
