@@ -21,7 +21,7 @@ FOLDERS = {
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
-    "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
+    "assign": [["simd"], ["contract"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
     "gpu": [["device"], ["vulkan"], ["methods", "reading"], ["user_shaders"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],

@@ -1,6 +1,8 @@
 // What holds for every registered assigner, and what it takes to add one.
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "assign/contract.h"
@@ -80,7 +82,7 @@ TEST(EveryAssigner, that_shares_frames_holds_as_much_memory_as_one_that_gets_all
   Random random(61);
   int methods = 0;
   for (const AssignerDescriptor* row : assigner_descriptors()) {
-    if (!row->answers(Answer::lists) || !AssignerRun(*row, Params(row->params), Answer::lists).shares_frames())
+    if (!row->answers(Answer::lists) || !AssignerRun(*row, Params(row->params), Answer::lists).shares_frames(true))
       continue;
     ++methods;
     for (const Setting& setting : settings_for(*row, 7))
@@ -93,6 +95,40 @@ TEST(EveryAssigner, that_shares_frames_holds_as_much_memory_as_one_that_gets_all
       }
   }
   EXPECT_GE(methods, 10);
+}
+
+// Instances that share frames, in memory of frames before, fill the lists of one that gets all.
+TEST(EveryAssigner, that_shares_frames_has_the_same_lists_in_any_memory) {
+  Random random(62);
+  int methods = 0;
+  for (const AssignerDescriptor* row : assigner_descriptors()) {
+    if (!row->answers(Answer::lists) || !AssignerRun(*row, Params(row->params), Answer::lists).shares_frames(false))
+      continue;
+    ++methods;
+    for (const Setting& setting : settings_for(*row, 7)) {
+      AssignerRun alone(*row, Params(row->params), Answer::lists);
+      std::vector<AssignerRun> sharing;
+      for (int i = 0; i < 3; ++i) sharing.emplace_back(*row, Params(row->params), Answer::lists);
+      for (AssignerRun* run : {&alone, sharing.data(), &sharing[1], &sharing[2]}) run->build(setting.grid);
+      std::array<Lists, 2> filled;
+      std::array<std::optional<Lists>, 2> ascending;
+      for (int i = 0; i < 8; ++i) {
+        const SomeLights frame(setting, random);
+        const FrameInput input{frame.frame, frame.lights, setting.input(frame.lights).depth};
+        AssignerRun& one = sharing[random.below(3)];
+        const std::size_t place = random.below(2);
+        alone.assign(input);
+        one.assign(input);
+        EXPECT_EQ(one.tests_done(), alone.tests_done()) << row->name << " on " << setting.name;
+        EXPECT_EQ(one.fallbacks(), alone.fallbacks()) << row->name << " on " << setting.name;
+        one.hand_over(filled[place], ascending[place]);
+        EXPECT_EQ(filled[place], *alone.filled_lists()) << row->name << " on " << setting.name;
+        EXPECT_EQ(ascending[place] ? *ascending[place] : filled[place], alone.cell_lists())
+            << row->name << " on " << setting.name;
+      }
+    }
+  }
+  EXPECT_GE(methods, 20);
 }
 
 // --- Adding an assigner: a class and a row, as in a file of src/assign/assigners ---

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "assign/each_target.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/random.h"
@@ -12,6 +13,7 @@
 namespace clusterbench::assign {
 namespace {
 
+using testing::on_each_target;
 using Ids = std::vector<std::uint32_t>;
 
 Ids list_of(const Lists& lists, std::uint32_t cell) {
@@ -129,6 +131,20 @@ TEST(Lists, ascend_if_each_of_them_does) {
   }
   EXPECT_GT(ascending, 500);
   EXPECT_LT(ascending, 1900);
+}
+
+// Two long lists with one descent, or none, at every place of a vector and behind the last whole one.
+TEST(Lists, ascend_in_whole_vectors_and_the_rest) {
+  on_each_target([](const std::string& target) {
+    for (std::uint32_t size = 1; size < 70; ++size)
+      for (std::uint32_t wrong = 0; wrong < size; ++wrong) {  // 0: none
+        Lists lists{{0, size, 2 * size}, {}};
+        for (std::uint32_t i = 0; i < 2 * size; ++i) lists.lights.push_back(0xffffff00u + i % size);
+        ASSERT_TRUE(are_ascending(lists)) << target;
+        if (wrong > 0) std::swap(lists.lights[size + wrong - 1], lists.lights[size + wrong]);
+        ASSERT_EQ(are_ascending(lists), wrong == 0) << target << ", " << wrong << " of " << size;
+      }
+  });
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "effort.h"
@@ -100,6 +103,66 @@ TEST(Counting, tells_cases_in_the_order_of_the_plan_one_at_a_time) {
   EXPECT_GT(told.size(), 4u);
   EXPECT_EQ(told, result.planned_ids);
   EXPECT_EQ(result.cases.size(), told.size());
+}
+
+// All but what methods hold in memory.
+std::string lists_text(Planned& planned, int threads) {
+  Result result = planned.run(threads);
+  for (CaseResult& one : result.cases) one.buffers.scratch_bytes = 0;
+  return text_of(result);
+}
+
+TEST(Counting, without_scratch_memory_has_the_same_lists_on_any_number_of_threads) {
+  for (const char* method : {"exact-fast", "aabb-fast", "distance-fast", "cascades-fast", "world-grid-fast"}) {
+    Planned planned(std::string(k_grids) + R"("assigners": [")" + method + R"("])");
+    const std::string one = lists_text(planned, 1);
+    planned.config.counts_scratch = false;
+    for (const int threads : {2, 5}) EXPECT_EQ(lists_text(planned, threads), one) << method << ", " << threads;
+  }
+}
+
+// Lists nothing. With `waits_s`, each frame waits so long for another instance that is at a frame.
+class Meeting final : public assign::ListAssigner {
+ public:
+  static inline std::atomic<int> at_frames{0}, most{0};
+  static inline double waits_s = 0.0;
+
+  void build(const grid::Grid& grid, const assign::LightKinds&) override { cells_ = grid.cell_count(); }
+  void assign(const assign::FrameInput&, assign::Lists& out) override {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const int now = ++at_frames;
+    if (now > most) most = now;
+    while (most < 2 && std::chrono::duration<double>(Clock::now() - begin).count() < waits_s) std::this_thread::yield();
+    --at_frames;
+    out = {std::vector<std::uint32_t>(cells_ + 1, 0), {}};
+  }
+  std::uint64_t tests_done() const override { return 0; }
+  std::size_t scratch_bytes() const override { return 0; }
+  assign::EarlierFrames earlier_frames() const override { return assign::EarlierFrames::matter_to_scratch; }
+
+ private:
+  std::size_t cells_ = 0;
+};
+
+TEST(Counting, of_one_method_is_at_several_frames_at_once_where_nobody_reads_its_scratch_memory) {
+  const assign::AssignerRegistration registration(
+      {.name = "meeting",
+       .summary = "lists nothing",
+       .source = "",
+       .kinds = {grid::Kind::frustum},
+       .params = {},
+       .make = [](const assign::Params&) -> std::unique_ptr<assign::ListAssigner> {
+         return std::make_unique<Meeting>();
+       }});
+  Planned planned(R"("grids": [{"slices": {"count": 8}}], "assigners": ["meeting"], "accuracy": {"check": false})");
+  for (const bool counts_scratch : {true, false}) {
+    Meeting::most = 0;
+    Meeting::waits_s = counts_scratch ? 0.02 : 30.0;  // they meet at once, or never
+    planned.config.counts_scratch = counts_scratch;
+    planned.run(2);
+    EXPECT_EQ(Meeting::most, counts_scratch ? 1 : 2);
+  }
 }
 
 // Its place, and the cases that were told before.

@@ -60,6 +60,7 @@ class ExactFast final : public ListAssigner {
 
   std::uint64_t tests_done() const override { return is_left_to_exact_ ? exact_->tests_done() : tests_; }
   std::uint64_t fallbacks() const override { return is_left_to_exact_ ? exact_->fallbacks() : fallbacks_; }
+  EarlierFrames earlier_frames() const override { return EarlierFrames::matter_to_scratch; }
   std::size_t scratch_bytes() const override {
     std::size_t bytes = exact_->scratch_bytes() + whole_.scratch_bytes() + slice_bins_.capacity_bytes() +
                         visible_.capacity_bytes() + spots_.capacity_bytes() + shapes_.capacity_bytes();

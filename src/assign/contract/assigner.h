@@ -81,6 +81,11 @@ struct FrameInput {
   const depth::DepthImage* depth = nullptr;
 };
 
+// What depends on the frames that an instance of a method got before this one. If its scratch memory alone does, its
+// size follows from the order of frames. If nothing does, that is the size for the frame that needs most, so that of
+// several instances that share the frames of a path, one holds as much as a single one that gets all of them.
+enum class EarlierFrames : std::uint8_t { matter, matter_to_scratch, do_not_matter };
+
 class Assigner {
  public:
   virtual ~Assigner() = default;
@@ -109,15 +114,14 @@ class Assigner {
   virtual std::vector<ShaderStatistic> shader_statistics() const { return {}; }
   // Present size of the scratch memory.
   virtual std::size_t scratch_bytes() const = 0;
-  // True if that depends on the frame that needed most, and not on the order of frames. Then several instances can
-  // share the frames of a path: the one that holds most holds as much as a single one that gets all frames.
-  virtual bool shares_frames() const { return false; }
+  virtual EarlierFrames earlier_frames() const { return EarlierFrames::matter; }
 };
 
 // A method that fills one list per cell. Storages convert the lists to light structures.
 class ListAssigner : public Assigner {
  public:
-  // Does not allocate in a steady state (as many pairs as before or fewer). Timed as the assignment.
+  // Does not allocate in a steady state (as many pairs as before or fewer). `out` may hold lists of any earlier frame.
+  // Timed as the assignment.
   virtual void assign(const FrameInput& input, Lists& out) = 0;
   // Of a method that nobody here has tested (a plug-in's): throws MethodError for lists of the last assign, with lights
   // of these types, that break the rules of Lists, before anything reads them. Not timed.

@@ -1,5 +1,7 @@
 #include "assign/contract/assigner_run.h"
 
+#include <utility>
+
 namespace clusterbench::assign {
 
 AssignerRun::AssignerRun(const AssignerDescriptor& descriptor, const Params& params, Answer answer) {
@@ -34,6 +36,21 @@ const Lists& AssignerRun::cell_lists() const {
   }
   make_ascending(ascending_);
   return ascending_;
+}
+
+bool AssignerRun::shares_frames(bool counts_scratch) const {
+  const EarlierFrames earlier = assigner().earlier_frames();
+  return earlier == EarlierFrames::do_not_matter || (earlier == EarlierFrames::matter_to_scratch && !counts_scratch);
+}
+
+void AssignerRun::hand_over(Lists& filled, std::optional<Lists>& ascending) {
+  if (&cell_lists() == &lists_) {
+    ascending.reset();
+  } else {
+    if (!ascending) ascending.emplace();
+    std::swap(*ascending, ascending_);
+  }
+  std::swap(filled, lists_);
 }
 
 std::vector<Answer> answers_with_cells(const AssignerDescriptor& descriptor, const Params& params) {

@@ -2,6 +2,7 @@
 // Runs a method in one of its result forms: measures use this to treat all methods alike.
 
 #include <memory>
+#include <optional>
 
 #include "assign/contract/assigner.h"
 
@@ -24,11 +25,16 @@ class AssignerRun {
   bool has_occupied_cells() const { return structure_ && structure_->has_occupied_cells(); }
   // The lights that each cell's samples loop over, ascending. Only with cells. Not timed.
   const Lists& cell_lists() const;
+  // Of a method that fills lists: exchanges its lists of this frame, as it filled them and, if these do not ascend, as
+  // they do, for memory of any earlier frame, which the next one fills.
+  void hand_over(Lists& filled, std::optional<Lists>& ascending);
 
   std::uint64_t tests_done() const { return assigner().tests_done(); }
   std::uint64_t fallbacks() const { return assigner().fallbacks(); }
   std::size_t scratch_bytes() const { return assigner().scratch_bytes(); }
-  bool shares_frames() const { return assigner().shares_frames(); }
+  // Whether several instances can share the frames of a path, and all figures are as of a single one. `counts_scratch`:
+  // among these figures is the scratch memory.
+  bool shares_frames(bool counts_scratch) const;
 
  private:
   Assigner& assigner() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "assign/simd/descents.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -52,16 +53,15 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
 }
 
 // If all lists ascend, descents occur only between the end of one list and the beginning of the next. Counting the
-// descents over all entries at once is many times faster than list by list, because compilers vectorise that loop.
+// descents over all entries at once is many times faster than list by list.
 bool are_ascending(const Lists& lists) {
   const std::uint32_t* const lights = lists.lights.data();
-  std::uint32_t descents = 0, between_lists = 0;
-  for (std::uint32_t i = lists.begin.front() + 1; i < lists.begin.back(); ++i) descents += lights[i] < lights[i - 1];
+  std::uint32_t between_lists = 0;
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
     const std::uint32_t at = lists.begin[cell];
     if (at > lists.begin.front() && at < lists.begin[cell + 1]) between_lists += lights[at] < lights[at - 1];
   }
-  return descents == between_lists;
+  return descents(lights + lists.begin.front(), lists.begin.back() - lists.begin.front()) == between_lists;
 }
 
 void make_ascending(Lists& lists) {

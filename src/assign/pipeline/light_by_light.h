@@ -28,7 +28,7 @@ class LightByLight : public ListAssigner {
 
   std::uint64_t tests_done() const final { return tests_; }
   // The pairs' memory doubles until a frame fits; that of a method is the grid's.
-  bool shares_frames() const final { return true; }
+  EarlierFrames earlier_frames() const final { return EarlierFrames::do_not_matter; }
   std::size_t scratch_bytes() const final {
     return pairs_.capacity_bytes() + static_cast<const Method&>(*this).own_bytes();
   }

@@ -50,6 +50,7 @@ class SliceBySlice final : public ListAssigner {
   }
 
   std::uint64_t tests_done() const override { return lists_.tests_done(); }
+  EarlierFrames earlier_frames() const override { return EarlierFrames::matter_to_scratch; }
   std::size_t scratch_bytes() const override {
     return lists_.capacity_bytes() + test_.capacity_bytes() + bounded_.capacity_bytes() + spots_.capacity_bytes() +
            kernel_.capacity_bytes();

@@ -59,8 +59,7 @@ config::FlagValue setting(std::size_t scene, const std::string& key, const std::
 }
 
 // One allocation serves all cameras: a scene that names none uses all.
-std::vector<config::FlagValue> all_cameras(const RunInputs& inputs) {
-  const config::Config given = read_inputs(inputs);
+std::vector<config::FlagValue> all_cameras(const config::Config& given) {
   std::vector<config::FlagValue> flags;
   const nlohmann::json& scenes = given.resolved["scenes"];
   for (std::size_t i = 0; i < scenes.size(); ++i)
@@ -82,13 +81,15 @@ bool uses_exact_methods(const RunInputs& inputs, const std::string& filter, bool
 
 // Removes the keys that only times or pictures need; lists are not compared with the truth.
 config::Config counting_only(const config::Config& config) {
-  return config::changed(config::with_presets_on_processor(config), {{"timing", {{"measure", false}}},
-                                                                     {"accuracy", {{"check", false}}},
-                                                                     {"stability", nullptr},
-                                                                     {"lookup", nullptr},
-                                                                     {"details", nullptr},
-                                                                     {"shadow_cull", nullptr},
-                                                                     {"shadow_frusta", nullptr}});
+  config::Config out = config::changed(config::with_presets_on_processor(config), {{"timing", {{"measure", false}}},
+                                                                                   {"accuracy", {{"check", false}}},
+                                                                                   {"stability", nullptr},
+                                                                                   {"lookup", nullptr},
+                                                                                   {"details", nullptr},
+                                                                                   {"shadow_cull", nullptr},
+                                                                                   {"shadow_frusta", nullptr}});
+  out.counts_scratch = false;
+  return out;
 }
 
 // Whether a method lists all lights of each cell, whatever its parameters and its lights: its lists and those of other
@@ -255,10 +256,11 @@ std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const
 
 std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
                                       const std::string& engine) {
-  std::vector<config::FlagValue> flags = all_cameras(inputs);
+  const config::Config given = read_inputs(inputs);
+  std::vector<config::FlagValue> flags = all_cameras(given);
   const bool exact_methods = uses_exact_methods(inputs, filter, all_methods);
   if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
-  const std::vector<bool> has_frames = scenes_with_frames(inputs, read_inputs(inputs, flags).scenes.size());
+  const std::vector<bool> has_frames = scenes_with_frames(inputs, given.scenes.size());
   const std::atomic<bool>& stop = os::stop_on_signals();
   const bool samples = std::ranges::find(has_frames, false) != has_frames.end();
   Sampling sampling{std::move(flags), false};

@@ -87,7 +87,7 @@ class CulledRun {
   std::uint64_t tests_done() const { return run_.tests_done(); }
   std::uint64_t fallbacks() const { return run_.fallbacks(); }
   std::size_t scratch_bytes() const { return run_.scratch_bytes(); }
-  bool shares_frames() const { return run_.shares_frames(); }
+  bool shares_frames(bool counts_scratch) const { return run_.shares_frames(counts_scratch); }
 
  private:
   assign::AssignerRun run_;

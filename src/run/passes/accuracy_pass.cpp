@@ -28,16 +28,18 @@ class MethodWork {
       if (meter.method() == method.method()) cases_.push_back(&meter);
   }
 
+  bool shares_frames(bool counts_scratch) const { return method_.run().shares_frames(counts_scratch); }
+
   // One user for all; or the method, and behind it its measures and each of its cases, if these need its lists alone.
-  // `places`: for the lists of so many frames; none: one user. `cells_stay`: the grids of all frames have the same
-  // number of cells.
-  void add_users(std::vector<User>& users, std::size_t places, bool cells_stay, const Stop& stop) {
+  // `places`: for the lists of so many frames; none: one user. `shares_frames`: the method may be at several frames at
+  // once.
+  void add_users(std::vector<User>& users, std::size_t places, bool shares_frames, const Stop& stop) {
     if (places == 0 || !method_.is_done_with_lists())
       return users.push_back({[this, stop](const PreparedFrame& now) { add(now, stop); }});
     lists_.resize(places);
     const std::size_t leader = users.size();
     users.push_back({[this](const PreparedFrame& now) { method_.fill(now, lists_of(now)); }, User::k_none,
-                     static_cast<int>(places), cells_stay && method_.run().shares_frames()});
+                     static_cast<int>(places), shares_frames});
     users.push_back({[this](const PreparedFrame& now) { method_.add(now, lists_of(now)); }, leader});
     for (CaseMeter* meter : cases_)
       users.push_back({[this, meter, stop](const PreparedFrame& now) {
@@ -200,7 +202,8 @@ class AccuracyPass {
     work.users_apart = !shadows_ && !runs_elsewhere(config_, group_);
     const std::size_t places = config_.threads > 1 && work.users_apart ? places_of_lists() : 0;
     work.users.push_back({[this](const PreparedFrame& now) { start(now); }});
-    for (MethodWork& method : works_) method.add_users(work.users, places, cells_stay(), stop_);
+    for (MethodWork& method : works_)
+      method.add_users(work.users, places, cells_stay() && method.shares_frames(config_.counts_scratch), stop_);
     return work;
   }
 

@@ -11,9 +11,7 @@ void MethodInstances::fill(const PreparedFrame& now, ListsOfFrame& out) {
   if (one->grid != now.grid) run.build(*(one->grid = now.grid), assign::kinds_of(lights));
   run.assign({now.frame, lights, now.depth.get()});
 
-  out.filled = *run.filled_lists();
-  out.ascending.reset();
-  if (const assign::Lists& cells = run.cell_lists(); &cells != run.filled_lists()) out.ascending = cells;
+  run.hand_over(out.filled, out.ascending);
   out.scratch_bytes = run.scratch_bytes();
   out.tests_done = run.tests_done();
   out.fallbacks = run.fallbacks();

@@ -36,7 +36,7 @@ struct PreparedFrame {
   std::size_t bytes() const;
 };
 
-// A method's lists of one frame, copied for those that use them while the method is at other frames.
+// A method's lists of one frame, for those that use them while the method is at other frames.
 struct ListsOfFrame {
   assign::Lists filled;                    // as the method filled them
   std::optional<assign::Lists> ascending;  // if those are not
