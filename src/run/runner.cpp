@@ -285,8 +285,7 @@ class Run {
       take_back_progress(group);
       run_without_broken(group, error, out);
     } catch (const Error& error) {
-      throw Error(error.file(), group.cases.front().name + (error.where().empty() ? "" : ": " + error.where()),
-                  error.message(), error.code());
+      throw error_at(group, error);
     }
   }
 

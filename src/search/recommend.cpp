@@ -9,10 +9,13 @@
 #include <set>
 #include <tuple>
 
+#include "assign/contract/method_error.h"
+#include "core/error.h"
 #include "core/memory.h"
 #include "core/text.h"
 #include "core/turns.h"
 #include "core/work_in_order.h"
+#include "gpu/device/device.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
@@ -222,8 +225,16 @@ class ViewSearch {
       CountedCamera& now =
           cameras.emplace_back(CountedCamera{group_of(some, camera), paths_[camera].only(indices), {}});
       const BudgetShare share(lists_, run::most_list_bytes(config, now.group, now.path), watch_.stop);
-      now.counted = accuracy_pass(
-          config, plan_.scenes[view_.scene], now.group, now.path, [](int) {}, watch_.stop);
+      try {
+        now.counted = accuracy_pass(
+            config, plan_.scenes[view_.scene], now.group, now.path, [](int) {}, watch_.stop);
+      } catch (const gpu::DeviceError&) {
+        throw;
+      } catch (const assign::MethodError&) {
+        throw;
+      } catch (const Error& error) {
+        throw error_at(now.group, error);
+      }
     }
     return cameras;
   }

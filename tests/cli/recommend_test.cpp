@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "cli/lamps.h"
@@ -240,6 +241,15 @@ TEST(Recommend, gives_the_same_answer_again_and_on_more_threads) {
   ASSERT_FALSE(once["choice"].is_null());
   EXPECT_EQ(recommended(space(), flags).answer, once);
   EXPECT_EQ(recommended(space(), flags + " --threads 3").answer, once);
+}
+
+TEST(Recommend, names_the_grid_whose_lists_take_too_much_memory) {
+  const Outcome done = tool("recommend -q --no-timing " + source_file("scenes/hall-512.glb") +
+                            " --set 'scenes.*.frames=1' --set limits.memory_mib=1 --threads 2");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_TRUE(std::regex_search(
+      done.err, std::regex("clusterbench: hall-512/walk/[^/]+/.*: limits.memory_mib: .* 1 MiB are allowed")))
+      << done.err;
 }
 
 TEST(Recommend, writes_a_configuration_that_runs_and_gives_the_same_figures) {

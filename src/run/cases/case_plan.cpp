@@ -35,6 +35,11 @@ bool runs_elsewhere(const config::Config& config, const GroupPlan& group) {
   });
 }
 
+Error error_at(const GroupPlan& group, const Error& error) {
+  return Error(error.file(), group.cases.front().name + (error.where().empty() ? "" : ": " + error.where()),
+               error.message(), error.code());
+}
+
 assign::AssignerRun start_method(const config::Config& config, const Method& method) {
   const config::MethodRequest& request = config.assigners[method.assigner];
   os::note_label(label_of(method));

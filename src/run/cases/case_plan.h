@@ -8,6 +8,7 @@
 
 #include "assign/contract/assigner_run.h"
 #include "config/config.h"
+#include "core/error.h"
 
 namespace clusterbench::run {
 
@@ -61,6 +62,9 @@ const assign::AssignerDescriptor& method_of(const config::Config& config, const 
 bool runs_elsewhere(const config::Config& config, const GroupPlan& group);
 // A case's method, ready to be built.
 assign::AssignerRun start_method(const config::Config& config, const Method& method);
+
+// The error with the case at whose measuring it was thrown: the group's first.
+Error error_at(const GroupPlan& group, const Error& error);
 
 // The display name of a case's storage.
 std::string storage_label(const config::Config& config, const CasePlan& case_plan);
