@@ -141,8 +141,8 @@ GroupCost cost_of_group(const config::Config& config, int threads, const Plan& p
   return cost;
 }
 
-// If a device fails, that of the cases without one; if anything else does, none: the run itself says what has failed,
-// in the order of its cases.
+// If a device fails at it, that of the cases without one; if these fail, too, or anything else does, none: the run
+// itself says what has failed, in the order of its cases.
 GroupCost cost_of_what_runs(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
                             double sweep_ns, const EstimateLimits& limits) {
   for (GroupPlan left = group; !left.cases.empty();) {

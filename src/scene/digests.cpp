@@ -126,11 +126,12 @@ std::vector<State> states_at(std::span<const double> times_s, const StateAt& sta
 // The states that the channels give to a light or camera, at each moment.
 void add_states(const Scene& scene, const Channels& channels, const StateAt& state_at, Sha256& digest,
                 int threads = 1) {
-  constexpr std::size_t k_most_numbers_at_once = std::size_t{1} << 20;
+  constexpr std::size_t k_most_lights_at_once = std::size_t{1} << 17, k_moments_of_thread = 8;
   const Moments moments = moments_of(scene, channels);
   State last = state_at(moments.times_s.front());
   for (int i = 0; i < 3; ++i) add_state(last, digest);  // as in older results for lights that never move
-  const std::size_t at_once = std::max<std::size_t>(1, k_most_numbers_at_once / std::max<std::size_t>(1, last.size()));
+  const std::size_t at_once = std::clamp<std::size_t>(k_most_lights_at_once / std::max<std::size_t>(1, last.size()), 1,
+                                                      k_moments_of_thread * static_cast<std::size_t>(threads));
   for (std::size_t begin = 1; begin < moments.times_s.size(); begin += at_once) {
     const std::span times_s = std::span(moments.times_s).subspan(begin);
     const auto some_s = times_s.first(std::min(at_once, times_s.size()));

@@ -166,8 +166,7 @@ class ViewSearch {
 
   double pairs_of(const config::Config& counting, const Candidate& candidate, const FrameOfView& frame) const {
     const run::GroupPlan group = group_of({&candidate, 1}, frame.camera);
-    const run::AccuracyResult counted = accuracy_pass(
-        counting, plan_.scenes[view_.scene], group, paths_[frame.camera].only({frame.index}), [](int) {}, watch_.stop);
+    const run::AccuracyResult counted = this->counted(counting, group, paths_[frame.camera].only({frame.index}));
     if (!counted.is_complete) return 0.0;
     return counted.methods[0].has_cells ? counted.methods[0].occupancy.pairs.max
                                         : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
@@ -200,6 +199,21 @@ class ViewSearch {
 
   double lights() const { return static_cast<double>(plan_.scenes[view_.scene].scene.lights.size()); }
 
+  // Its errors name the group's first case, but for those of devices and plug-ins, which name the method.
+  run::AccuracyResult counted(const config::Config& config, const run::GroupPlan& group,
+                              const run::PathFrames& path) const {
+    try {
+      return accuracy_pass(
+          config, plan_.scenes[view_.scene], group, path, [](int) {}, watch_.stop);
+    } catch (const gpu::DeviceError&) {
+      throw;
+    } catch (const assign::MethodError&) {
+      throw;
+    } catch (const Error& error) {
+      throw error_at(group, error);
+    }
+  }
+
   // The counts of candidates of one grid on one camera.
   struct CountedCamera {
     run::GroupPlan group;
@@ -225,16 +239,7 @@ class ViewSearch {
       CountedCamera& now =
           cameras.emplace_back(CountedCamera{group_of(some, camera), paths_[camera].only(indices), {}});
       const BudgetShare share(lists_, run::most_list_bytes(config, now.group, now.path), watch_.stop);
-      try {
-        now.counted = accuracy_pass(
-            config, plan_.scenes[view_.scene], now.group, now.path, [](int) {}, watch_.stop);
-      } catch (const gpu::DeviceError&) {
-        throw;
-      } catch (const assign::MethodError&) {
-        throw;
-      } catch (const Error& error) {
-        throw error_at(now.group, error);
-      }
+      now.counted = counted(config, now.group, now.path);
     }
     return cameras;
   }

@@ -329,6 +329,20 @@ TEST(SizeCommand, holds_what_it_counts_against_the_budgets_of_a_configuration_an
   EXPECT_NE(relative.err.find("'longest > +5 %'"), std::string::npos) << relative.err;
 }
 
+// Methods hold more or less by the order of their frames.
+TEST(SizeCommand, a_budget_on_scratch_memory_is_held_alike_on_any_number_of_threads) {
+  const auto told_on = [](const std::string& threads) {
+    const Outcome done = tool("size -q --grid frustum --tiles 32 --slices 8 --assigner exact-fast,aabb-fast " +
+                              test::source_file("scenes/street.glb") +
+                              " --set 'scenes.*.frames=40' --fail-if 'scratch_bytes > 1' --threads " + threads);
+    EXPECT_EQ(done.code, 1) << done.err;
+    return done.err;
+  };
+  const std::string one = told_on("1");
+  EXPECT_NE(one.find("scratch_bytes is "), std::string::npos) << one;
+  for (const char* threads : {"2", "5"}) EXPECT_EQ(told_on(threads), one) << threads;
+}
+
 TEST(SizeCommand, indices_are_as_wide_as_the_lights_that_the_capacity_holds_for_ask) {
   const Folder folder;
   const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(255, 0)).string(),

@@ -149,6 +149,12 @@ TEST_F(JournalTest, of_another_device_is_refused_with_both_names) {
   other["config"] = "b";
   EXPECT_TRUE(
       refusal_of(header("RTX 4090", "01"), other).starts_with("is an interrupted run of another configuration"));
+  Json built = other;
+  built["git_sha"] = "1";
+  built["count"] = "perf";
+  EXPECT_TRUE(refusal_of(k_header, built)
+                  .starts_with("is an interrupted run of another build and configuration and --count and device; "))
+      << refusal_of(k_header, built);
   for (const char* broken : {"7", "null", R"({"name": 7})", R"({"uuid": "01"})", "[]"}) {
     Json mangled = k_header;
     mangled["device"] = Json::parse(broken);

@@ -9,6 +9,7 @@
 #include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/work_in_order.h"
 #include "effort.h"
 #include "places.h"
 #include "result/result.h"
@@ -132,7 +133,8 @@ class Meeting final : public assign::ListAssigner {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     const int now = ++at_frames;
-    if (now > most) most = now;
+    for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+    }
     while (most < 2 && std::chrono::duration<double>(Clock::now() - begin).count() < waits_s) std::this_thread::yield();
     --at_frames;
     out = {std::vector<std::uint32_t>(cells_ + 1, 0), {}};
@@ -146,6 +148,7 @@ class Meeting final : public assign::ListAssigner {
 };
 
 TEST(Counting, of_one_method_is_at_several_frames_at_once_where_nobody_reads_its_scratch_memory) {
+  if (processors() < 2) GTEST_SKIP() << "one processor does one thing at a time";
   const assign::AssignerRegistration registration(
       {.name = "meeting",
        .summary = "lists nothing",

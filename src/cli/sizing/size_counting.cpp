@@ -88,7 +88,8 @@ config::Config counting_only(const config::Config& config) {
                                                                                    {"details", nullptr},
                                                                                    {"shadow_cull", nullptr},
                                                                                    {"shadow_frusta", nullptr}});
-  out.counts_scratch = false;
+  out.counts_scratch =
+      std::ranges::find(out.limits.fail_if, "scratch_bytes", &config::LimitRule::figure) != out.limits.fail_if.end();
   return out;
 }
 

@@ -96,16 +96,17 @@ std::string other_device(const Json& earlier, const Json& now) {
          "; --device NAME takes the same one, where it is there";
 }
 
-// The parts of two runs that differ, for the user.
+// What differs between two runs, for the user.
 std::vector<std::string> differences(const Json& earlier, const Json& now) {
   const std::pair<const char*, const char*> parts[] = {
-      {"config", "configuration"}, {"filter", "--filter"}, {"shard", "--shard"}, {"count", "--count"},
-      {"scenes", "scene"},         {"plugins", "plug-in"}, {"methods", "shader"}};
+      {"version", "build"},   {"git_sha", "build"},  {"flags", "build"},     {"config", "configuration"},
+      {"filter", "--filter"}, {"shard", "--shard"},  {"count", "--count"},   {"scenes", "scene"},
+      {"plugins", "plug-in"}, {"methods", "shader"}, {"machine", "machine"}, {"device", "device"}};
   std::vector<std::string> out;
-  if (earlier.is_object())
-    for (const auto& [key, name] : parts)
-      if (earlier.value(key, Json()) != now.value(key, Json())) out.emplace_back(name);
-  if (out.empty()) out.emplace_back("build");
+  for (const auto& [key, name] : parts)
+    if (earlier.value(key, Json()) != now.value(key, Json()) && (out.empty() || out.back() != name))
+      out.emplace_back(name);
+  if (out.empty()) out.emplace_back("build");  // that writes other facts
   return out;
 }
 
@@ -127,7 +128,8 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     };
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) refuse("is empty; remove it to go on");
     if (is_cut) refuse("is not what a run writes");
-    if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
+    const Json* const earlier = value_at(entry, "/header");
+    if (number == 1 && (earlier == nullptr || !earlier->is_object())) refuse("does not say what was run");
     if (number == 1)
       if (const std::string other = other_device(entry["header"], header); !other.empty()) refuse(other);
     if (number == 1 && entry["header"] != header)
