@@ -128,8 +128,9 @@ class Cluster:
         return done.stdout.strip().splitlines()[-1]
 
     def wait_for(self, job):
+        """A controller that was away when a task ended may hear of it only as it next asks the nodes: every 100 s."""
         until(lambda: self.ask("scontrol", "show", "job", job).find("JobState=COMPLETED") >= 0
-              or self.ask("scontrol", "show", "job", job).find("JobState=FAILED") >= 0, f"the end of job {job}")
+              or self.ask("scontrol", "show", "job", job).find("JobState=FAILED") >= 0, f"the end of job {job}", 240)
 
 
 def finished_cases(folder, index):
