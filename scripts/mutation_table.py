@@ -863,7 +863,7 @@ MUTATIONS = [
              "all += values[i] < values[i - 1];", "all += 0;",
              "assign.Lists.ascend_in_whole_vectors_and_the_rest",
              "lists that do not ascend are taken for ascending ones, and comparing them with the truth goes wrong"),
-    Mutation("lists-handed-over-twice", "assign/contract/assigner_run.cpp",
+    Mutation("offsets-handed-over-without-lights", "assign/contract/assigner_run.cpp",
              "  std::swap(filled, lists_);\n", "  filled.begin = lists_.begin;\n",
              "assign.EveryAssigner.that_shares_frames_has_the_same_lists_in_any_memory",
              "threads that share a path's frames measure another frame's lists"),

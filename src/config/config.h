@@ -70,7 +70,7 @@ struct Config : Sections {
   std::vector<SampleSetRequest> reading_sets;   // at which a device reads; empty: nothing is read
   std::vector<ShadowCullRequest> shadow_culls;  // each once; empty: not measured
   int threads = 1;                              // that count: threads_asked, or as many as there are processors
-  bool counts_scratch = true;                   // false where nobody reads what memory methods hold (size)
+  bool counts_scratch = true;                   // false: nobody reads scratch_bytes (size)
 
   // With other precisions than float32, results show the losses of each precision.
   bool compares_precisions() const { return precisions != std::vector<PrecisionRequest>{{}}; }

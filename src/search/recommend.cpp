@@ -166,10 +166,10 @@ class ViewSearch {
 
   double pairs_of(const config::Config& counting, const Candidate& candidate, const FrameOfView& frame) const {
     const run::GroupPlan group = group_of({&candidate, 1}, frame.camera);
-    const run::AccuracyResult counted = this->counted(counting, group, paths_[frame.camera].only({frame.index}));
-    if (!counted.is_complete) return 0.0;
-    return counted.methods[0].has_cells ? counted.methods[0].occupancy.pairs.max
-                                        : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
+    const run::AccuracyResult found = counted(counting, group, paths_[frame.camera].only({frame.index}));
+    if (!found.is_complete) return 0.0;
+    return found.methods[0].has_cells ? found.methods[0].occupancy.pairs.max
+                                      : static_cast<double>(found.structures[0].buffers.index_entries.high_water);
   }
 
   // Calls work(i, threads) for 0 <= i < count: at the same time, each with its own number of threads, if none of the

@@ -97,7 +97,7 @@ TEST(EveryAssigner, that_shares_frames_holds_as_much_memory_as_one_that_gets_all
   EXPECT_GE(methods, 10);
 }
 
-// Instances that share frames, in memory of frames before, fill the lists of one that gets all.
+// Several instances that share frames and fill the memory of earlier lists have the lists of one instance.
 TEST(EveryAssigner, that_shares_frames_has_the_same_lists_in_any_memory) {
   Random random(62);
   int methods = 0;

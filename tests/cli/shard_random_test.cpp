@@ -121,6 +121,26 @@ TEST_P(RandomSweep, in_shards_is_the_undivided_run) {
   EXPECT_EQ(file_text(folder / "merged.json"), file_text(folder / "whole.json")) << count << " shards of " << sweep;
 }
 
+// One method on one grid is counted frame by frame on all threads, others grid by grid.
+TEST_P(RandomSweep, is_sized_alike_on_any_number_of_threads) {
+  SplitMix64 random(8200 + static_cast<std::uint64_t>(GetParam()));
+  const Folder folder;
+  Json sweep = random_sweep(random);
+  if (random.below(2) == 0) {
+    sweep["scenes"] = {{{"path", source_file("scenes/street.glb")}, {"frames", 12}}};
+    sweep["grids"] = {{{"tiles", {{"pixels", {64, 64}}}}, {"slices", {{"count", 2 + random.below(16)}}}}};
+    sweep["assigners"] = some_of(random, {"aabb-fast", "bounds-fast", "sphere-refinement-fast", "exact-fast"}, 1);
+  }
+  const std::string config = folder.write("sweep.json", sweep.dump()).string();
+  const auto sized_on = [&](const char* threads) {
+    const Outcome done = tool("size -q --format json --threads " + std::string(threads) + " " + config);
+    return std::to_string(done.code) + done.out + done.err;
+  };
+  const std::string one = sized_on("1");
+  EXPECT_FALSE(one.starts_with("2")) << one << sweep;
+  for (const char* threads : {"2", "5"}) EXPECT_EQ(sized_on(threads), one) << threads << " threads: " << sweep;
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSweep, ::testing::Range(0, test::tries(24)));
 
 }  // namespace

@@ -81,10 +81,13 @@ struct FrameInput {
   const depth::DepthImage* depth = nullptr;
 };
 
-// What depends on the frames that an instance of a method got before this one. If its scratch memory alone does, its
-// size follows from the order of frames. If nothing does, that is the size for the frame that needs most, so that of
-// several instances that share the frames of a path, one holds as much as a single one that gets all of them.
-enum class EarlierFrames : std::uint8_t { matter, matter_to_scratch, do_not_matter };
+// Whether earlier frames change what a method does in a frame. Where they do not, several instances can share the
+// frames of a path.
+enum class EarlierFrames : std::uint8_t {
+  matter,             // its lists may depend on them
+  matter_to_scratch,  // only the size of its scratch memory depends on them
+  do_not_matter       // the scratch memory is as large as the frame that needs most makes it, in any order
+};
 
 class Assigner {
  public:

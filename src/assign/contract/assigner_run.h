@@ -25,15 +25,15 @@ class AssignerRun {
   bool has_occupied_cells() const { return structure_ && structure_->has_occupied_cells(); }
   // The lights that each cell's samples loop over, ascending. Only with cells. Not timed.
   const Lists& cell_lists() const;
-  // Of a method that fills lists: exchanges its lists of this frame, as it filled them and, if these do not ascend, as
-  // they do, for memory of any earlier frame, which the next one fills.
+  // Of a method that fills lists: swaps its lists of this frame into `filled` and, if they do not ascend, sorted ones
+  // into `ascending`. What these held before becomes the memory for the next frame.
   void hand_over(Lists& filled, std::optional<Lists>& ascending);
 
   std::uint64_t tests_done() const { return assigner().tests_done(); }
   std::uint64_t fallbacks() const { return assigner().fallbacks(); }
   std::size_t scratch_bytes() const { return assigner().scratch_bytes(); }
-  // Whether several instances can share the frames of a path, and all figures are as of a single one. `counts_scratch`:
-  // among these figures is the scratch memory.
+  // Whether several instances that share the frames of a path have the same figures as one; with `counts_scratch`, that
+  // of the scratch memory, too.
   bool shares_frames(bool counts_scratch) const;
 
  private:
