@@ -117,12 +117,12 @@ bool needs_samples(const config::Config& config, const run::Plan& plan) {
 }
 
 // The plan, with sets of samples only if sizes need them: rays for samples of surfaces can take most of the time.
-run::Plan plan_of_counts(config::Config& config, const std::string& filter) {
+run::Plan plan_of_counts(config::Config& config, const std::string& filter, run::SceneFiles& files) {
   std::vector<config::SampleSetRequest> samples = std::exchange(config.sample_sets, {});
-  run::Plan plan = run::make_plan(config, filter);
+  run::Plan plan = run::make_plan(config, filter, &files);
   if (samples.empty() || !needs_samples(config, plan)) return plan;
   config.sample_sets = std::move(samples);
-  return run::make_plan(config, filter);
+  return run::make_plan(config, filter, &files);
 }
 
 // Paths with many frames use as many samples in total as 30 frames would.
@@ -193,14 +193,14 @@ struct Sampling {
 
 // Rates for the scenes that request none.
 Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> flags, const std::vector<bool>& has_frames,
-                     const std::string& filter) {
+                     const std::string& filter, run::SceneFiles& files) {
   Sampling out;
   std::vector<config::FlagValue> sampled_flags = flags;
   for (std::size_t i = 0; i < has_frames.size(); ++i)
     if (!has_frames[i]) sampled_flags.push_back(setting(i, "frames", std::to_string(k_sampled_frames)));
   config::Config config = counting_only(read_inputs(inputs, sampled_flags));
   config.sample_sets.clear();
-  const run::Plan plan = run::make_plan(config, filter);
+  const run::Plan plan = run::make_plan(config, filter, &files);
   const run::Result few = counts_of(config, plan, true);
   out.flags = std::move(flags);
   double all = 0.0;
@@ -265,14 +265,15 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
   const std::atomic<bool>& stop = os::stop_on_signals();
   const bool samples = std::ranges::find(has_frames, false) != has_frames.end();
   Sampling sampling{std::move(flags), false};
-  if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), has_frames, filter);
+  run::SceneFiles files;
+  if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), has_frames, filter, files);
   if (stop) return {};
   SizePlan out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}, sampling.is_coarser, exact_methods};
   if (!engine.empty()) {
     out.limited = out.config;
     out.config = without_engine_limits(std::move(out.config));
   }
-  out.plan = plan_of_counts(out.config, filter);
+  out.plan = plan_of_counts(out.config, filter, files);
   if (out.limited) out.limited->sample_sets = out.config.sample_sets;
   if (samples) share_samples(out.config, out.plan);
   return out;

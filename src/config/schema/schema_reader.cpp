@@ -1,6 +1,7 @@
 #include "config/schema/schema_reader.h"
 
 #include <algorithm>
+#include <optional>
 #include <regex>
 #include <set>
 #include <unordered_map>
@@ -120,6 +121,13 @@ class Reader {
     return *known;
   }
 
+  // Compiled once: that takes longer than all else of a value.
+  const std::regex& pattern_of(const Json& schema) const {
+    std::optional<std::regex>& known = patterns_[&schema];
+    if (!known) known.emplace(schema["pattern"].get<std::string>());
+    return *known;
+  }
+
   [[noreturn]] void fail(const Json& schema, const Json& value, const std::string& pointer) const {
     throw Error(text_.file, text_.where(pointer),
                 "found " + found_text(value) + ", allowed: " + describe_allowed(root_, schema));
@@ -172,7 +180,7 @@ class Reader {
       return std::any_of(choices->begin(), choices->end(), [&](const Json& choice) { return fits(choice, value); });
     if (schema.contains("const")) return value == schema["const"];
     if (schema.contains("pattern") && value.is_string())
-      return std::regex_search(value.get_ref<const std::string&>(), std::regex(schema["pattern"].get<std::string>()));
+      return std::regex_search(value.get_ref<const std::string&>(), pattern_of(schema));
     const std::vector<std::string> types = types_of(schema);
     const bool typed = types.empty() || std::any_of(types.begin(), types.end(), [&](const std::string& type) {
                          return has_type(type == "integer" ? "number" : type, value);
@@ -310,6 +318,7 @@ class Reader {
   const Json& root_;
   const JsonText& text_;
   mutable std::unordered_map<const Json*, const Json*> resolved_;
+  mutable std::unordered_map<const Json*, std::optional<std::regex>> patterns_;
 };
 
 }  // namespace

@@ -299,12 +299,12 @@ std::size_t Plan::case_count() const {
   return count;
 }
 
-Plan make_plan(const config::Config& config, const std::string& filter) {
+Plan make_plan(const config::Config& config, const std::string& filter, SceneFiles* files) {
   set_memory_limit(config.limits.memory_mib << 20);
   use_device(config);
   Plan plan;
   Expansion expansion(config, filter, plan);
-  plan.scenes = load_scenes(config);
+  plan.scenes = load_scenes(config, files);
   expansion.expand();
   if (!plan.groups.empty()) return plan;
   if (expansion.all_cases() > 0)

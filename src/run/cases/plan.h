@@ -47,6 +47,7 @@ struct Plan {
 // Loads the scenes and expands the cases. `filter` (a regular expression in RE2 syntax, "" = all) selects cases by
 // name. Sets memory_limit() to the configuration's. Throws Error as load_scenes() does, for a filter that is no regular
 // expression, for more than k_most_cases, and if no case is left.
-Plan make_plan(const config::Config& config, const std::string& filter);
+// `files`: for several plans of the same scenes.
+Plan make_plan(const config::Config& config, const std::string& filter, SceneFiles* files = nullptr);
 
 }  // namespace clusterbench::run

@@ -35,8 +35,10 @@ scene::Scene scene_of_file(const config::SceneRequest& request) {
 }
 
 // Loads the scene, resolves its lights' ranges, and makes lights of its boxes on request.
-scene::Scene resolved_scene(const config::SceneRequest& request) {
-  scene::Scene scene = request.rig ? scene::make_rig(*request.rig) : scene_of_file(request);
+scene::Scene resolved_scene(const config::SceneRequest& request, SceneFiles* files) {
+  scene::Scene scene = request.rig        ? scene::make_rig(*request.rig)
+                       : files != nullptr ? files->scene(request)
+                                          : scene_of_file(request);
   scene::resolve_ranges(scene, request.range_rule);
   if (request.boxes)
     scene::assign_boxes(scene);
@@ -100,9 +102,10 @@ void lay_ground(const config::Config& config, SceneData& data) {
 }
 
 // `names`: those of earlier scenes; adds this one's.
-SceneData scene_data(const config::Config& config, const config::SceneRequest& request, UniqueNames& names) {
+SceneData scene_data(const config::Config& config, const config::SceneRequest& request, SceneFiles* files,
+                     UniqueNames& names) {
   SceneData data;
-  data.scene = resolved_scene(request);
+  data.scene = resolved_scene(request, files);
   data.scene.name = names.add(name_part(data.scene.name));
   data.paths = scene::camera_paths(data.scene, request.camera);
   check_paths(data, config.threads);
@@ -133,10 +136,17 @@ std::string SceneData::contents_sha256() const {
   return geometry && counts_triangles ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
 }
 
-std::vector<SceneData> load_scenes(const config::Config& config) {
+scene::Scene SceneFiles::scene(const config::SceneRequest& request) {
+  const auto same = [&](const ReadScene& read) { return read.path == request.path && read.choice == request.choice; };
+  const auto known = std::ranges::find_if(read_, same);
+  if (known != read_.end()) return known->scene;
+  return read_.emplace_back(ReadScene{request.path, request.choice, scene_of_file(request)}).scene;
+}
+
+std::vector<SceneData> load_scenes(const config::Config& config, SceneFiles* files) {
   std::vector<SceneData> scenes;
   UniqueNames names;
-  for (const config::SceneRequest& request : config.scenes) scenes.push_back(scene_data(config, request, names));
+  for (const config::SceneRequest& request : config.scenes) scenes.push_back(scene_data(config, request, files, names));
   for (SceneData& data : scenes)  // their final address
     if (data.surface_obstacle().empty()) {
       data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);

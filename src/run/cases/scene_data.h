@@ -1,6 +1,7 @@
 #pragma once
 // The scenes of a run as they are measured: loaded, with the frames of each camera path chosen.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,10 +40,24 @@ struct SceneData {
   std::string contents_sha256() const;
 };
 
+// The scenes of files, each read once and kept beside the plans that use it.
+class SceneFiles {
+ public:
+  scene::Scene scene(const config::SceneRequest& request);
+
+ private:
+  struct ReadScene {
+    std::filesystem::path path;
+    scene::GltfChoice choice;
+    scene::Scene scene;
+  };
+  std::vector<ReadScene> read_;
+};
+
 // One per scene of the configuration, in its order. Names of scenes, and of the cameras of a scene, are unique and
 // without slashes. Reads triangles only if something in the configuration needs them. Throws Error for a file that
 // cannot be read, and for lights or cameras outside of the domain (geom/shapes/domain.h).
-std::vector<SceneData> load_scenes(const config::Config& config);
+std::vector<SceneData> load_scenes(const config::Config& config, SceneFiles* files = nullptr);
 
 // Whether a grid's slices follow the visible surfaces, which needs triangles.
 bool follows_surfaces(const grid::GridSpec& grid);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -13,8 +15,11 @@ namespace {
 constexpr double k_float_max = std::numeric_limits<float>::max(), k_half_step = 0x1p103;
 
 // RFC 6901: '~' and '/' inside a name are escaped.
-std::string escaped(const std::string& name) {
+std::string child_of(const std::string& pointer, std::string_view name) {
   std::string out;
+  out.reserve(pointer.size() + 1 + name.size());
+  out.append(pointer).append(1, '/');
+  if (name.find_first_of("~/") == std::string_view::npos) return out.append(name);
   for (const char c : name) {
     if (c == '~') {
       out += "~0";
@@ -25,6 +30,13 @@ std::string escaped(const std::string& name) {
     }
   }
   return out;
+}
+
+// None if it is not one that rounds to a finite number in single precision.
+std::optional<double> number_of(const nlohmann::json& value) {
+  if (!value.is_number()) return std::nullopt;
+  const auto number = value.get<double>();
+  return std::abs(number) < k_float_max + k_half_step ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -59,25 +71,25 @@ void JsonLocation::warn(const std::string& message) const {
   warnings_->add(pointer_.empty() ? "/" : pointer_, one_line(message));
 }
 
-JsonLocation JsonLocation::at(const std::string& key) const {
+JsonLocation JsonLocation::at(std::string_view key) const {
   expect_object();
   const auto found = value_->find(key);
-  if (found == value_->end()) refuse("'" + key + "' is missing");
-  JsonLocation out(*file_, *found, *warnings_, pointer_ + "/" + escaped(key), lazy_);
+  if (found == value_->end()) refuse("'" + std::string(key) + "' is missing");
+  JsonLocation out(*file_, *found, *warnings_, child_of(pointer_, key), lazy_);
   out.owned_ = owned_;
   if (lazy_ != nullptr) out.array_ = lazy_->at(out.pointer_);
   return out;
 }
 
 JsonLocation JsonLocation::at(std::size_t index) const {
-  const std::string pointer = pointer_ + "/" + std::to_string(index);
+  std::string pointer = child_of(pointer_, std::to_string(index));
   if (array_ != nullptr) {
     const auto element = std::make_shared<const nlohmann::json>(array_->element(index));
-    JsonLocation out(*file_, *element, *warnings_, pointer);
+    JsonLocation out(*file_, *element, *warnings_, std::move(pointer));
     out.owned_ = element;
     return out;
   }
-  JsonLocation out(*file_, (*value_)[index], *warnings_, pointer, lazy_);
+  JsonLocation out(*file_, (*value_)[index], *warnings_, std::move(pointer), lazy_);
   out.owned_ = owned_;
   return out;
 }
@@ -107,12 +119,9 @@ bool JsonLocation::boolean() const {
 }
 
 double JsonLocation::number() const {
+  if (const std::optional<double> number = number_of(*value_)) return *number;
   if (!value_->is_number()) refuse("found " + kind_of(*value_) + ", a number is needed");
-  const double number = value_->get<double>();
-  if (!(std::abs(number) < k_float_max + k_half_step)) {
-    refuse("found " + kind_of(*value_) + ", a number that single precision can hold is needed");
-  }
-  return number;
+  refuse("found " + kind_of(*value_) + ", a number that single precision can hold is needed");
 }
 
 std::size_t JsonLocation::whole() const {
@@ -139,7 +148,10 @@ std::vector<double> JsonLocation::numbers(std::size_t count) const {
            std::to_string(count) + " numbers are needed");
   }
   std::vector<double> out;
-  for (std::size_t i = 0; i < count; ++i) out.push_back(at(i).number());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<double> number = array_ == nullptr ? number_of((*value_)[i]) : std::nullopt;
+    out.push_back(number ? *number : at(i).number());
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/gltf_document/gltf_lazy.h"
@@ -22,11 +23,11 @@ class JsonLocation {
 
   const nlohmann::json& value() const { return *value_; }
   const std::string& pointer() const { return pointer_; }
-  bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+  bool has(std::string_view key) const { return value_->is_object() && value_->contains(key); }
   std::size_t size() const { return array_ != nullptr ? array_->size() : value_->size(); }
 
   // A required member, or an element of an array.
-  JsonLocation at(const std::string& key) const;
+  JsonLocation at(std::string_view key) const;
   JsonLocation at(std::size_t index) const;
 
   // Each throws Error(file, pointer, ...) if the value is not of that kind.
