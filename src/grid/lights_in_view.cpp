@@ -5,19 +5,41 @@
 
 namespace clusterbench::grid {
 
+namespace {
+
+double length_of_normal(const view::Projection& projection, double side) {
+  return projection.orthographic ? 1.0 : std::sqrt(1.0 + side * side);
+}
+
+bool is_in_view(const view::Frame& frame, const ViewPlanes& planes, const scene::WorldLight& light) {
+  if (!(light.range_m > 0.0)) return false;
+  if (!std::isfinite(light.range_m)) return true;
+  const WorldBall around = ball_around(light);
+  const Vec3d center = frame.view_space.rotation * (around.center - frame.view_space.origin);
+  return planes.may_see(center, around.radius_m + slack_of(center, light.range_m));
+}
+
+}  // namespace
+
 Vec3d in_view_space(const view::Frame& frame, const scene::WorldLight& light) {
   return frame.view_space.rotation * (light.position - frame.view_space.origin);
 }
 
-bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
+ViewPlanes::ViewPlanes(const view::Projection& projection)
+    : projection_(projection),
+      length_{length_of_normal(projection, projection.left), length_of_normal(projection, projection.right),
+              length_of_normal(projection, projection.bottom), length_of_normal(projection, projection.top)} {}
+
+bool ViewPlanes::may_see(const Vec3d& center, double radius) const {
   const double depth = -center.z;
-  if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
-  const auto beyond = [&](double coordinate, double side) {
-    if (projection.orthographic) return coordinate - side;
-    return (coordinate - side * depth) / std::sqrt(1.0 + side * side);
+  if (depth + radius < projection_.near_m || depth - radius > projection_.far_m) return false;
+  const auto beyond = [&](double coordinate, double side, double length) {
+    return projection_.orthographic ? coordinate - side : (coordinate - side * depth) / length;
   };
-  return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
-         -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
+  return -beyond(center.x, projection_.left, length_[0]) <= radius &&
+         beyond(center.x, projection_.right, length_[1]) <= radius &&
+         -beyond(center.y, projection_.bottom, length_[2]) <= radius &&
+         beyond(center.y, projection_.top, length_[3]) <= radius;
 }
 
 WorldBall ball_around(const scene::WorldLight& light) {
@@ -31,11 +53,15 @@ WorldBall ball_around(const scene::WorldLight& light) {
 }
 
 bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
-  if (!(light.range_m > 0.0)) return false;
-  if (!std::isfinite(light.range_m)) return true;
-  const WorldBall around = ball_around(light);
-  const Vec3d center = frame.view_space.rotation * (around.center - frame.view_space.origin);
-  return may_be_in_view(frame.projection, center, around.radius_m + slack_of(center, light.range_m));
+  return is_in_view(frame, ViewPlanes(frame.projection), light);
+}
+
+std::vector<bool> lights_in_view(const view::Frame& frame) {
+  const ViewPlanes planes(frame.projection);
+  std::vector<bool> out;
+  out.reserve(frame.lights.size());
+  for (const scene::WorldLight& light : frame.lights) out.push_back(is_in_view(frame, planes, light));
+  return out;
 }
 
 double slack_of(const Vec3d& center, double range_m) {
@@ -66,8 +92,9 @@ WorldBox box_around(const scene::WorldLight& light) {
 std::optional<WorldBox> box_around_lights_in_view(const view::Frame& frame) {
   WorldBox all;
   bool is_first = true;
+  const ViewPlanes planes(frame.projection);
   for (const scene::WorldLight& light : frame.lights) {
-    if (!is_in_view(frame, light)) continue;
+    if (!is_in_view(frame, planes, light)) continue;
     if (!std::isfinite(light.range_m)) return std::nullopt;
     const WorldBox box = box_around(light);
     all.lo = is_first ? box.lo : glm::min(all.lo, box.lo);

@@ -1,7 +1,9 @@
 #pragma once
 // Which lights of a frame are in its view, and the box around them in the world.
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "view/frame.h"
 
@@ -9,9 +11,20 @@ namespace clusterbench::grid {
 
 Vec3d in_view_space(const view::Frame& frame, const scene::WorldLight& light);
 
-// Whether a ball (centre in view space) reaches into the half-spaces of the camera's near and far planes and of the
-// picture's sides. A ball outside of an edge or a corner of the view can be accepted wrongly.
-bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius);
+// The half-spaces of a camera's near and far planes and of the picture's sides.
+class ViewPlanes {
+ public:
+  // `projection` must outlive this object.
+  explicit ViewPlanes(const view::Projection& projection);
+
+  // Whether a ball (centre in view space) reaches into all of them. A ball outside of an edge or a corner of the view
+  // can be accepted wrongly.
+  bool may_see(const Vec3d& center, double radius) const;
+
+ private:
+  const view::Projection& projection_;
+  std::array<double, 4> length_;  // of normals: left, right, bottom, top
+};
 
 // The ball around a light: for a spot, the smallest one around its sphere-capped cone.
 struct WorldBall {
@@ -25,6 +38,8 @@ WorldBall ball_around(const scene::WorldLight& light);
 // view, one without an end always. All limits use this definition: counts of lights in view, tiles and boxes that
 // follow these lights, and the pre-cull `frustum` (in single precision, padded).
 bool is_in_view(const view::Frame& frame, const scene::WorldLight& light);
+// The same of each light of the frame.
+std::vector<bool> lights_in_view(const view::Frame& frame);
 
 // An upper bound of the roundoffs of view transform and angles, in metres.
 double slack_of(const Vec3d& center, double range_m);

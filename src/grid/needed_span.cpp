@@ -77,12 +77,13 @@ const char* name_of(Fit::To to) {
 
 Span span_of_lights(const view::Frame& frame, bool by_distance) {
   Span span;
+  const ViewPlanes planes(frame.projection);
   for (const scene::WorldLight& light : frame.lights) {
     if (!(light.range_m > 0.0)) continue;
     if (!std::isfinite(light.range_m)) return {-k_infinity, k_infinity};
     const Vec3d center = in_view_space(frame, light);
     const double slack = slack_of(center, light.range_m);
-    if (!may_be_in_view(frame.projection, center, light.range_m + slack)) continue;
+    if (!planes.may_see(center, light.range_m + slack)) continue;
     const Span own = span_of(frame, light, center, by_distance);
     include(span, {own.near_m - slack, own.far_m + slack});
   }
@@ -109,12 +110,12 @@ Span needed_span(const Fit& fit, const view::Frame& frame, const depth::DepthIma
 
 Span span_of_balls(const view::Frame& frame, bool by_distance) {
   Span span{k_infinity, 0.0};
+  const ViewPlanes planes(frame.projection);
   for (const scene::WorldLight& light : frame.lights) {
     if (light.range_m == 0.0 || !std::isfinite(light.range_m)) continue;
     const Vec3d center = in_view_space(frame, light);
     const double middle = along(center, by_distance);
-    if (may_be_in_view(frame.projection, center, light.range_m))
-      include(span, {middle - light.range_m, middle + light.range_m});
+    if (planes.may_see(center, light.range_m)) include(span, {middle - light.range_m, middle + light.range_m});
   }
   return span;
 }

@@ -36,8 +36,7 @@ Tiling doubled_tiles(const Tiling& requested, Vec2i viewport, std::uint64_t ligh
 }
 
 std::uint64_t count_lights_in_view(const view::Frame& frame) {
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(frame.lights, [&](const scene::WorldLight& light) { return is_in_view(frame, light); }));
+  return static_cast<std::uint64_t>(std::ranges::count(lights_in_view(frame), true));
 }
 
 std::uint64_t lights_with_bits(const Reaction& reaction, const view::Frame& frame) {

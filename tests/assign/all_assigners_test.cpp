@@ -118,12 +118,14 @@ TEST(EveryAssigner, that_shares_frames_has_the_same_lists_in_any_memory) {
         AssignerRun& one = sharing[random.below(3)];
         const std::size_t place = random.below(2);
         alone.assign(input);
+        one.use_memory_of(std::move(filled[place]));
         one.assign(input);
         EXPECT_EQ(one.tests_done(), alone.tests_done()) << row->name << " on " << setting.name;
         EXPECT_EQ(one.fallbacks(), alone.fallbacks()) << row->name << " on " << setting.name;
-        one.hand_over(filled[place], ascending[place]);
+        const ListOrder order = random.below(2) == 0 ? ListOrder::any : ListOrder::ascending;
+        one.hand_over(order, filled[place], ascending[place]);
         EXPECT_EQ(filled[place], *alone.filled_lists()) << row->name << " on " << setting.name;
-        EXPECT_EQ(ascending[place] ? *ascending[place] : filled[place], alone.cell_lists())
+        EXPECT_EQ(ascending[place] ? *ascending[place] : filled[place], alone.cell_lists(order))
             << row->name << " on " << setting.name;
       }
     }

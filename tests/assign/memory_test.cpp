@@ -70,6 +70,38 @@ TEST(Memory, of_every_method_is_bounded_by_the_limit_and_no_more_is_asked_of_sma
   }
 }
 
+// What a method that fills lists throws where it is given lists as large as these to fill; "" if nothing.
+std::string refusal_in(const AssignerDescriptor& row, const LongTile& tile, std::size_t lists) {
+  AssignerRun run(row, Params(row.params), Answer::lists);
+  Lists given;
+  given.lights.resize(lists);
+  run.use_memory_of(std::move(given));
+  const view::LightArrays lights = view::lights_in(tile.frame, grid::space_of(tile.grid, tile.frame));
+  try {
+    run.build(tile.grid, kinds_of(lights));
+    run.assign({tile.frame, lights, nullptr});
+  } catch (const Error& error) {
+    return error.message();
+  }
+  return "";
+}
+
+TEST(Memory, limit_does_not_depend_on_the_lists_that_a_method_is_given) {
+  const LongTile tile(300, 100, false);  // 30,000 pairs: 117 KiB
+  int refused = 0;
+  for (const AssignerDescriptor* row : assigner_descriptors()) {
+    if (!row->takes(grid::Kind::frustum) || row->needs.depth || !row->answers(Answer::lists)) continue;
+    for (std::uint64_t limit = 16 << 10; limit < (512 << 10); limit += limit / 16) {
+      const MemoryLimitScope little(limit);
+      const std::string in_none = refusal_in(*row, tile, 0);
+      refused += in_none.empty() ? 0 : 1;
+      EXPECT_EQ(refusal_in(*row, tile, 30'000), in_none) << row->name << " with " << limit << " bytes";
+      EXPECT_EQ(refusal_in(*row, tile, 1'000'000), in_none) << row->name << " with " << limit << " bytes";
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
 TEST(Memory, of_storages_is_bounded_by_the_limit) {
   const MemoryLimitScope little(4 * k_mib);
   for (const StorageDescriptor* row : storage_descriptors()) {

@@ -523,6 +523,58 @@ TEST(EveryStorage, keeps_lists_in_any_order) {
       }
 }
 
+// All that a storage says of its sizes in the current frame.
+std::vector<std::uint64_t> sizes_of(const Storage& kept) {
+  const StructureUse use = kept.use();
+  const StructureLimit limit = kept.limit();
+  std::vector<std::uint64_t> sizes{use.index_entries, use.index_bytes,    use.header_bytes,      use.upload_bytes,
+                                   use.traffic_bytes, use.dropped_pairs,  use.overflowing_cells, use.fallback_cells,
+                                   limit.bytes,       use.repeated_pairs, limit.index_entries,   kept.index_bits()};
+  for (const BufferNeed& need : kept.buffers())
+    sizes.insert(sizes.end(), {need.element_bytes, need.elements, need.most, need.step});
+  sizes.insert(sizes.end(), use.dropped_lights.begin(), use.dropped_lights.end());
+  return sizes;
+}
+
+TEST(EveryStorage, counts_the_sizes_that_it_stores) {
+  const std::string shared = "shared", sparse = "sparse", none = "none";
+  const std::vector<std::pair<std::string, std::map<std::string, ParamValue>>> kinds{
+      {"packed", {}},
+      {"packed", {{"headers", sparse}}},
+      {"packed", {{"headers", sparse}, {"equal_lists", shared}}},
+      {"packed", {{"max_entries", 800.0}}},
+      {"packed", {{"max_entries", 800.0}, {"headers", sparse}, {"equal_lists", shared}}},
+      {"packed", {{"header_size", 30.0}}},
+      {"fixed", {{"cap", 3.0}}},
+      {"fixed", {{"cap", 700.0}}},
+      {"fixed", {{"cap", 40.0}, {"counts", none}}},
+      {"bitfield", {}},
+      {"linked", {{"nodes_per_cell", 4.0}}},
+      {"linked", {{"nodes_per_cell", 700.0}}},
+      {"runs", {}}};
+  std::set<std::string> met;
+  for (const auto& [name, params] : kinds)
+    for (const std::uint32_t lights : {0u, 1u, 60u, 700u}) {
+      met.insert(name);
+      const auto counted = storage(name, params), stored = storage(name, params);
+      const view::LightRanges types(lights / 2, lights - lights / 2);
+      counted->start(60, types);
+      stored->start(60, types);
+      std::uint64_t seed = lights;
+      for (const double share : {0.3, 0.0, 0.02, 1.0, 0.01, 0.6}) {
+        ++seed;
+        const Lists lists = shuffled(random_lists(60, lights, share, seed), lights / 2, seed);
+        counted->count(lists);
+        stored->store(lists);
+        EXPECT_EQ(sizes_of(*counted), sizes_of(*stored)) << name << ", " << lights << " lights, " << share;
+        if (seed % 2 == 0) continue;
+        counted->store(lists);
+        EXPECT_EQ(counted->expanded(), stored->expanded()) << name << ": stores after it has counted";
+      }
+    }
+  EXPECT_EQ(met.size(), storage_descriptors().size()) << "a storage that is not counted here";
+}
+
 TEST(Linked, lists_read_back_as_they_were_stored) {
   for (const double share : {0.0, 0.02, 0.7}) {
     const Lists lists = random_lists(40, 300, share, 3);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "effort.h"
+#include "grid/lights_in_view.h"
 #include "measure/samples/samples.h"
 #include "measure/samples/shading.h"
 
@@ -108,7 +109,7 @@ TEST(LightsBeyondGrid, leave_out_none_that_a_point_without_a_cell_needs) {
     setting.frame.count_types();
     const grid::Grid grid = setting.grid();
     LightsBeyondGrid counts;
-    add_frame(counts, setting.frame, grid);
+    add_frame(counts, setting.frame, grid, grid::lights_in_view(setting.frame));
     (counts.most > 0 ? beyond : none) += 1;
     const std::vector<grid::Sample> samples =
         volume_samples(setting.frame, setting.frame.projection.far_m, 500, static_cast<std::uint64_t>(round));

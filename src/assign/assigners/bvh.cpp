@@ -249,6 +249,7 @@ class BvhLists final : public ListAssigner {
         [&](const geom::Ball& ball) { return geom::ball_touches_box(ball, all_) && !(view_ && view_->misses(ball)); },
         trees_);
     set_cones(lights);
+    most_pairs_ = memory_limit() / sizeof(std::uint32_t);
     out.lights.clear();
     out.begin.resize(cells_.size() + 1);
     out.begin[0] = 0;
@@ -306,7 +307,7 @@ class BvhLists final : public ListAssigner {
                                          found_.begin());
     }
     const std::uint64_t pairs = out.lights.size() + std::uint64_t{count};
-    if (pairs > out.lights.capacity()) check_memory("pairs of light lists", 2 * pairs, sizeof(std::uint32_t));
+    if (pairs > most_pairs_) check_memory("pairs of light lists", pairs, sizeof(std::uint32_t));
     check_pair_count(pairs);
     out.lights.insert(out.lights.end(), found_.begin(), found_.begin() + count);
     out.begin[cell + 1] = static_cast<std::uint32_t>(pairs);
@@ -321,7 +322,7 @@ class BvhLists final : public ListAssigner {
   std::vector<geom::SphericalCone> cones_;  // of the spots
   BallLanes candidates_;                    // of the current run
   std::vector<std::uint32_t> found_;        // of the current cell
-  std::uint64_t tests_ = 0;
+  std::uint64_t tests_ = 0, most_pairs_ = 0;
 };
 
 // The hierarchy as samples query it: lights whose ball's box contains the sample. Also beyond the grid.

@@ -123,7 +123,8 @@ class Assigner {
 // A method that fills one list per cell. Storages convert the lists to light structures.
 class ListAssigner : public Assigner {
  public:
-  // Does not allocate in a steady state (as many pairs as before or fewer). `out` may hold lists of any earlier frame.
+  // Does not allocate in a steady state (as many pairs as `out` has room for). `out` may hold any lists: of any earlier
+  // frame, and of another method.
   // Timed as the assignment.
   virtual void assign(const FrameInput& input, Lists& out) = 0;
   // Of a method that nobody here has tested (a plug-in's): throws MethodError for lists of the last assign, with lights

@@ -27,14 +27,14 @@ void AssignerRun::assign(const FrameInput& input) {
   }
 }
 
-const Lists& AssignerRun::cell_lists() const {
+const Lists& AssignerRun::cell_lists(ListOrder order) const {
   if (lists_assigner_) {
-    if (are_ascending(lists_)) return lists_;
+    if (order == ListOrder::any || are_ascending(lists_)) return lists_;
     ascending_ = lists_;
   } else {
     structure_->expand(ascending_);
   }
-  make_ascending(ascending_);
+  if (order == ListOrder::ascending) make_ascending(ascending_);
   return ascending_;
 }
 
@@ -43,14 +43,14 @@ bool AssignerRun::shares_frames(bool counts_scratch) const {
   return earlier == EarlierFrames::do_not_matter || (earlier == EarlierFrames::matter_to_scratch && !counts_scratch);
 }
 
-void AssignerRun::hand_over(Lists& filled, std::optional<Lists>& ascending) {
-  if (&cell_lists() == &lists_) {
+void AssignerRun::hand_over(ListOrder order, Lists& filled, std::optional<Lists>& ascending) {
+  if (&cell_lists(order) == &lists_) {
     ascending.reset();
   } else {
     if (!ascending) ascending.emplace();
     std::swap(*ascending, ascending_);
   }
-  std::swap(filled, lists_);
+  filled = std::move(lists_);
 }
 
 std::vector<Answer> answers_with_cells(const AssignerDescriptor& descriptor, const Params& params) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "assign/contract/assigner.h"
 
@@ -23,11 +24,12 @@ class AssignerRun {
   const LightStructure* structure() const { return structure_.get(); }
   bool has_cells() const { return !structure_ || structure_->has_cells(); }
   bool has_occupied_cells() const { return structure_ && structure_->has_occupied_cells(); }
-  // The lights that each cell's samples loop over, ascending. Only with cells. Not timed.
-  const Lists& cell_lists() const;
-  // Of a method that fills lists: swaps its lists of this frame into `filled` and, if they do not ascend, sorted ones
-  // into `ascending`. What these held before becomes the memory for the next frame.
-  void hand_over(Lists& filled, std::optional<Lists>& ascending);
+  // The lights that each cell's samples loop over. Only with cells. Not timed.
+  const Lists& cell_lists(ListOrder order = ListOrder::ascending) const;
+  // Of a method that fills lists: the memory that it fills next. And moves its lists of this frame into `filled` and,
+  // if cell_lists(order) are others, those into `ascending`, whose memory is used again.
+  void use_memory_of(Lists lists) { lists_ = std::move(lists); }
+  void hand_over(ListOrder order, Lists& filled, std::optional<Lists>& ascending);
 
   std::uint64_t tests_done() const { return assigner().tests_done(); }
   std::uint64_t fallbacks() const { return assigner().fallbacks(); }
@@ -43,7 +45,7 @@ class AssignerRun {
   std::unique_ptr<StructureAssigner> structure_assigner_;  // one of the two is set
   Lists lists_;
   std::unique_ptr<LightStructure> structure_;
-  mutable Lists ascending_;  // computed on first use
+  mutable Lists ascending_;  // made on request by cell_lists(); in the order that was requested
 };
 
 // The result forms of a method whose lists per cell can be compared with the truth.

@@ -33,6 +33,9 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
 std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges,
                         std::vector<std::uint32_t>& scratch);
 
+// How the lights of each list are ordered. Any order is enough where only their number matters.
+enum class ListOrder { any, ascending };
+
 // Does every list ascend, as merges and binary searches need? And a function that sorts them.
 bool are_ascending(const Lists& lists);
 void make_ascending(Lists& lists);

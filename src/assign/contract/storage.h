@@ -24,6 +24,9 @@ class Storage : public LightStructure {
   virtual void set_types(const view::LightRanges& lights) { static_cast<void>(lights); }
   // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
   virtual void store(const Lists& lists) = 0;
+  // In place of store() where only sizes are read: use() and buffers() are those after store(). What cells hold is
+  // undefined until the next store().
+  virtual void count(const Lists& lists) { store(lists); }
   // Appends the lights that a shader would read for a cell: its list without the dropped lights.
   virtual void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const = 0;
   virtual Reads reads_of_cell(std::uint32_t cell) const = 0;

@@ -70,12 +70,11 @@ void ListBuilder::finish_band(const BandHole& hole) {
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::uint64_t band_pairs = pairs_of(band_);
   const std::size_t needed = pairs_ + band_pairs + k_most_lanes;
+  // Whatever memory is there, so that the limit does not depend on earlier frames.
+  check_memory("pairs of light lists", needed, sizeof(std::uint32_t));
+  check_pair_count(pairs_ + band_pairs);
   // No further than this band: resizing first fills the new part with zeros.
-  if (lists.size() < needed) {
-    check_memory("pairs of light lists", needed, sizeof(std::uint32_t));
-    check_pair_count(pairs_ + band_pairs);
-    lists.resize(needed);
-  }
+  if (lists.size() < needed) lists.resize(needed);
   const std::uint64_t spans = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
   band_.width = spans == 0 ? 0 : static_cast<std::uint32_t>(band_pairs / spans);
   std::uint32_t* begin = out_->begin.data() + std::size_t{bands_done_} * band_.rows * band_.row_columns;

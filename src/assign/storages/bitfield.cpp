@@ -21,6 +21,7 @@ class Bitfield final : public Storage {
   }
 
   void store(const Lists& lists) override { write_bits(lists, words_per_cell_, words_.data()); }
+  void count(const Lists&) override {}
 
   StructureUse use() const override {
     StructureUse use;

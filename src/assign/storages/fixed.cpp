@@ -23,18 +23,23 @@ void FixedLists::start(std::uint32_t cell_count, const view::LightRanges& lights
 void FixedLists::store(const Lists& lists) {
   clear_use();
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-    const auto list = lists.of(cell);
-    keep(cell, list.data(), list.size());
-    if (list.size() <= form_.cap) continue;
-    for (const std::uint32_t light : list.subspan(form_.cap)) is_dropped_[light] = true;
+    add_use(lists.of(cell));
+    keep(cell, lists.of(cell).data(), lists.of(cell).size());
   }
+}
+
+void FixedLists::count(const Lists& lists) {
+  clear_use();
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) add_use(lists.of(cell));
 }
 
 void FixedLists::take(std::span<const std::uint32_t> counts, std::span<const std::uint32_t> entries,
                       std::span<const std::uint32_t> dropped) {
   clear_use();
-  for (std::uint32_t cell = 0; cell < cell_count_; ++cell)
+  for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
+    add_use(counts[cell]);
     keep(cell, entries.data() + std::size_t{cell} * form_.cap, counts[cell]);
+  }
   for (std::uint32_t light = 0; light < lights_; ++light)
     is_dropped_[light] = (dropped[light / 32] >> light % 32 & 1u) != 0;
 }
@@ -44,15 +49,25 @@ void FixedLists::clear_use() {
   is_dropped_.assign(lights_, false);
 }
 
-// The first of `count` entries.
-void FixedLists::keep(std::uint32_t cell, const std::uint32_t* entries, std::size_t count) {
-  const std::size_t kept = std::min<std::size_t>(count, form_.cap);
-  longest_ = std::max<std::uint64_t>(longest_, count);
+void FixedLists::add_use(std::span<const std::uint32_t> list) {
+  add_use(list.size());
+  for (const std::uint32_t light : list.subspan(kept_of(list.size()))) is_dropped_[light] = true;
+}
+
+// Of a list before dropping.
+void FixedLists::add_use(std::size_t length) {
+  const std::size_t kept = kept_of(length);
+  longest_ = std::max<std::uint64_t>(longest_, length);
+  kept_ += kept;
+  dropped_pairs_ += length - kept;
+  overflowing_cells_ += length > kept ? 1 : 0;
+}
+
+// The first of `length` entries.
+void FixedLists::keep(std::uint32_t cell, const std::uint32_t* entries, std::size_t length) {
+  const std::size_t kept = kept_of(length);
   indices_.write(static_cast<std::size_t>(cell) * form_.cap, entries, kept);
   end_list(cell, static_cast<std::uint32_t>(kept));
-  kept_ += kept;
-  dropped_pairs_ += count - kept;
-  overflowing_cells_ += count > kept ? 1 : 0;
 }
 
 StructureUse FixedLists::use() const {

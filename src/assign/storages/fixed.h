@@ -1,6 +1,7 @@
 #pragma once
 // Room for the same number of lights in every cell: the storage `fixed`, and lists that a shader wrote in this form.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,7 @@ class FixedLists final : public Storage {
   using Storage::start;
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override;
   void store(const Lists& lists) override;
+  void count(const Lists& lists) override;
   // In place of store(), with counts and indices of 32 bits: `counts` of each cell, before dropping; `entries`, `cap`
   // for each cell; `dropped`, a bit for each light that did not fit in some cell.
   void take(std::span<const std::uint32_t> counts, std::span<const std::uint32_t> entries,
@@ -42,7 +44,10 @@ class FixedLists final : public Storage {
 
  private:
   void clear_use();
-  void keep(std::uint32_t cell, const std::uint32_t* entries, std::size_t count);
+  void add_use(std::span<const std::uint32_t> list);
+  void add_use(std::size_t length);
+  std::size_t kept_of(std::size_t length) const { return std::min<std::size_t>(length, form_.cap); }
+  void keep(std::uint32_t cell, const std::uint32_t* entries, std::size_t length);
   std::uint32_t length_of(std::uint32_t cell) const;
   void end_list(std::uint32_t cell, std::uint32_t length);
 

@@ -80,6 +80,14 @@ class Packed final : public Storage {
       write_headers(lists, headers_);
   }
 
+  void count(const Lists& lists) override {
+    if (chooses()) return store(lists);
+    entries_ = lists.lights.size();
+    header_count_ = lists.cell_count();
+    if (!is_sparse_) return;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) header_count_ -= lists.of(cell).empty() ? 1 : 0;
+  }
+
   StructureUse use() const override {
     StructureUse use;
     use.index_entries = entries_;

@@ -54,10 +54,8 @@ struct ReachesBeyond {
   bool operator()(const grid::WorldGrid& world) const { return leaves_box(world, light); }
 };
 
-}  // namespace
-
-bool may_reach_beyond(const view::Frame& frame, const grid::Grid& grid, const scene::WorldLight& light) {
-  if (!grid::is_in_view(frame, light)) return false;
+// Of a light in view.
+bool reaches_beyond(const view::Frame& frame, const grid::Grid& grid, const scene::WorldLight& light) {
   if (!std::isfinite(light.range_m)) {
     const bool ends_with_view = grid.has_tiles() && !grid.screen().by_distance &&
                                 static_cast<float>(frame.projection.far_m) <= grid.screen().slices.boundaries.back();
@@ -66,9 +64,17 @@ bool may_reach_beyond(const view::Frame& frame, const grid::Grid& grid, const sc
   return std::visit(ReachesBeyond{frame, light}, grid.shape);
 }
 
-void add_frame(LightsBeyondGrid& counts, const view::Frame& frame, const grid::Grid& grid) {
-  const auto now = static_cast<std::uint64_t>(std::ranges::count_if(
-      frame.lights, [&](const scene::WorldLight& light) { return may_reach_beyond(frame, grid, light); }));
+}  // namespace
+
+bool may_reach_beyond(const view::Frame& frame, const grid::Grid& grid, const scene::WorldLight& light) {
+  return grid::is_in_view(frame, light) && reaches_beyond(frame, grid, light);
+}
+
+void add_frame(LightsBeyondGrid& counts, const view::Frame& frame, const grid::Grid& grid,
+               const std::vector<bool>& in_view) {
+  std::uint64_t now = 0;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i)
+    now += in_view[i] && reaches_beyond(frame, grid, frame.lights[i]) ? 1 : 0;
   counts.most = std::max(counts.most, now);
   counts.frames += now > 0 ? 1 : 0;
 }

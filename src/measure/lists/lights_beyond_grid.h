@@ -3,6 +3,7 @@
 // cells lose no light; this is proven without samples.
 
 #include <cstdint>
+#include <vector>
 
 #include "grid/grid.h"
 #include "view/frame.h"
@@ -19,6 +20,8 @@ struct LightsBeyondGrid {
   std::uint64_t most = 0;  // in the frame with most
   int frames = 0;          // with such a light
 };
-void add_frame(LightsBeyondGrid& counts, const view::Frame& frame, const grid::Grid& grid);
+// `in_view`: grid::lights_in_view() of the frame.
+void add_frame(LightsBeyondGrid& counts, const view::Frame& frame, const grid::Grid& grid,
+               const std::vector<bool>& in_view);
 
 }  // namespace clusterbench::measure

@@ -9,12 +9,16 @@
 namespace clusterbench::measure {
 
 void add_frame(LightsInView& counts, const view::Frame& frame) {
+  add_frame(counts, frame, grid::lights_in_view(frame));
+}
+
+void add_frame(LightsInView& counts, const view::Frame& frame, const std::vector<bool>& in_view) {
   const view::LightRanges ranges = frame.ranges();
   std::array<std::uint64_t, view::k_light_types> now{};
   counts.is_lit.resize(ranges.size());
   counts.is_seen.resize(ranges.size());
   for (std::uint32_t i = 0; i < ranges.size(); ++i) {
-    const bool is_lit = !scene::is_dark(frame.lights[i]), is_here = grid::is_in_view(frame, frame.lights[i]);
+    const bool is_lit = !scene::is_dark(frame.lights[i]), is_here = in_view[i];
     now[ranges.type_of(i)] += is_here ? 1 : 0;
     counts.is_lit[i] = counts.is_lit[i] || is_lit;
     counts.is_seen[i] = counts.is_seen[i] || (is_lit && is_here);

@@ -30,5 +30,7 @@ struct LightsInView {
   }
 };
 void add_frame(LightsInView& counts, const view::Frame& frame);
+// `in_view`: grid::lights_in_view() of the frame.
+void add_frame(LightsInView& counts, const view::Frame& frame, const std::vector<bool>& in_view);
 
 }  // namespace clusterbench::measure

@@ -90,11 +90,11 @@ void LongestBySlice::add_frame(const grid::Grid& grid, const assign::Lists& list
   }
   stay_ = stay_ && boundaries == boundaries_;
   if (!stay_) return;
-  const auto cells_of_slice = static_cast<std::uint32_t>(cells.x * cells.y);
-  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-    std::uint32_t& longest = longest_[cell / cells_of_slice];
-    longest = std::max(longest, lists.begin[cell + 1] - lists.begin[cell]);
-  }
+  const auto cells_of_slice = static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y);
+  const std::uint32_t* begin = lists.begin.data();
+  for (std::uint32_t& longest : longest_)
+    for (const std::uint32_t* const end = begin + cells_of_slice; begin < end; ++begin)
+      longest = std::max(longest, begin[1] - begin[0]);
 }
 
 std::vector<std::uint32_t> LongestBySlice::result() const {

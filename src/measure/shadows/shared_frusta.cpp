@@ -219,9 +219,10 @@ double SharingCounts::saved() const {
 void add_frame(SharingCounts& counts, const view::Frame& frame, const SharingLimits& limits) {
   std::vector<std::uint32_t> spots;
   std::size_t points = 0;
+  const std::vector<bool> in_view = grid::lights_in_view(frame);
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
     const scene::LightType type = frame.lights[i].type;
-    if (type == scene::LightType::box || !grid::is_in_view(frame, frame.lights[i])) continue;
+    if (type == scene::LightType::box || !in_view[i]) continue;
     if (type == scene::LightType::spot)
       spots.push_back(i);
     else

@@ -8,11 +8,12 @@
 namespace clusterbench::run {
 
 void LightReach::add(const view::Frame& frame) {
-  for (const scene::WorldLight& light : frame.lights) {
+  const std::vector<bool> in_view = grid::lights_in_view(frame);
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const scene::WorldLight& light = frame.lights[i];
     if (!std::isfinite(light.range_m) || !(light.range_m > 0.0)) continue;
     add_box(light.position - light.range_m, light.position + light.range_m);
-    if (grid::is_in_view(frame, light))
-      far_m_ = std::max(far_m_, glm::length(light.position - frame.view_space.origin) + light.range_m);
+    if (in_view[i]) far_m_ = std::max(far_m_, glm::length(light.position - frame.view_space.origin) + light.range_m);
   }
 }
 

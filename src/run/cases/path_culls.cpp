@@ -76,16 +76,16 @@ void CulledRun::assign(const view::Frame& frame, const view::LightArrays& lights
   run_.assign({frame, cull_.lights, depth});
 }
 
-const assign::Lists& CulledRun::cell_lists() const {
-  if (pre_cull_->is_none()) return run_.cell_lists();
-  mapped_lists_ = run_.cell_lists();
+const assign::Lists& CulledRun::cell_lists(assign::ListOrder order) const {
+  if (pre_cull_->is_none()) return run_.cell_lists(order);
+  mapped_lists_ = run_.cell_lists(order);
   assign::map_lights(mapped_lists_.lights, cull_.kept);
   return mapped_lists_;
 }
 
-void CulledRun::store(assign::Storage& storage) const {
+const assign::Lists& CulledRun::lists_for(assign::Storage& storage) const {
   if (!pre_cull_->is_none()) storage.set_types(cull_.lights);
-  storage.store(*run_.filled_lists());
+  return *run_.filled_lists();
 }
 
 std::optional<assign::MappedStructure> CulledRun::mapped(const assign::LightStructure& structure) const {

@@ -71,11 +71,12 @@ class CulledRun {
 
   bool has_cells() const { return run_.has_cells(); }
   bool has_occupied_cells() const { return run_.has_occupied_cells(); }
-  // Ascending, in the rig's indices. Only with cells.
-  const assign::Lists& cell_lists() const;
+  // In the rig's indices. Only with cells.
+  const assign::Lists& cell_lists(assign::ListOrder order = assign::ListOrder::ascending) const;
   // Writes the method's lists into a storage as an engine does: with the indices of the lights that the method got. Not
-  // for a method with its own structure.
-  void store(assign::Storage& storage) const;
+  // for a method with its own structure. count(): sizes alone.
+  void store(assign::Storage& storage) const { storage.store(lists_for(storage)); }
+  void count(assign::Storage& storage) const { storage.count(lists_for(storage)); }
   // As the method filled them, with the indices of the lights that it got; null if it makes its own structure.
   const assign::Lists* filled_lists() const { return run_.filled_lists(); }
   // As the method made it; null if it fills lists.
@@ -90,6 +91,8 @@ class CulledRun {
   bool shares_frames(bool counts_scratch) const { return run_.shares_frames(counts_scratch); }
 
  private:
+  const assign::Lists& lists_for(assign::Storage& storage) const;
+
   assign::AssignerRun run_;
   const cull::PreCull* pre_cull_;
   const grid::Grid* grid_ = nullptr;

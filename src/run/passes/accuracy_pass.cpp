@@ -3,9 +3,11 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
+#include "grid/lights_in_view.h"
 #include "run/cases/frame_samples.h"
 #include "run/cases/impossible_cases.h"
 #include "run/cases/path_culls.h"
@@ -23,7 +25,8 @@ class MethodWork {
  public:
   using User = FrameUser<PreparedFrame>;
 
-  MethodWork(MethodMeter& method, std::vector<CaseMeter>& cases) : method_(method) {
+  MethodWork(MethodMeter& method, std::vector<CaseMeter>& cases, ListMemory& memory)
+      : method_(method), memory_(memory) {
     for (CaseMeter& meter : cases)
       if (meter.method() == method.method()) cases_.push_back(&meter);
   }
@@ -36,15 +39,20 @@ class MethodWork {
   void add_users(std::vector<User>& users, std::size_t places, bool shares_frames, const Stop& stop) {
     if (places == 0 || !method_.is_done_with_lists())
       return users.push_back({[this, stop](const PreparedFrame& now) { add(now, stop); }});
-    lists_.resize(places);
+    lists_ = std::vector<SharedLists>(places);
     const std::size_t leader = users.size();
-    users.push_back({[this](const PreparedFrame& now) { method_.fill(now, lists_of(now)); }, User::k_none,
-                     static_cast<int>(places), shares_frames});
-    users.push_back({[this](const PreparedFrame& now) { method_.add(now, lists_of(now)); }, leader});
+    users.push_back(
+        {[this](const PreparedFrame& now) { fill(now); }, User::k_none, static_cast<int>(places), shares_frames});
+    users.push_back({[this](const PreparedFrame& now) {
+                       method_.add(now, lists_of(now).lists);
+                       end_reading(now);
+                     },
+                     leader});
     for (CaseMeter* meter : cases_)
       users.push_back({[this, meter, stop](const PreparedFrame& now) {
-                         meter->add(now, lists_of(now));
+                         meter->add(now, lists_of(now).lists);
                          meter->add_known_samples(now, stop);
+                         end_reading(now);
                        },
                        leader});
   }
@@ -73,12 +81,27 @@ class MethodWork {
       meter->add_known_samples(now, stop);
     }
   }
+
+  struct SharedLists {
+    ListsOfFrame lists;
+    std::atomic<std::size_t> readers = 0;  // that are not done: measures of the method, and each of its cases
+  };
   // The method is at most so many frames ahead of its cases.
-  ListsOfFrame& lists_of(const PreparedFrame& now) { return lists_[static_cast<std::size_t>(now.at) % lists_.size()]; }
+  SharedLists& lists_of(const PreparedFrame& now) { return lists_[static_cast<std::size_t>(now.at) % lists_.size()]; }
+  void fill(const PreparedFrame& now) {
+    SharedLists& shared = lists_of(now);
+    method_.fill(now, memory_, shared.lists);
+    shared.readers = 1 + cases_.size();
+  }
+  void end_reading(const PreparedFrame& now) {
+    SharedLists& shared = lists_of(now);
+    if (--shared.readers == 0) memory_.give(std::move(shared.lists.filled));
+  }
 
   MethodMeter& method_;
+  ListMemory& memory_;
   std::vector<CaseMeter*> cases_;
-  std::vector<ListsOfFrame> lists_;
+  std::vector<SharedLists> lists_;
 };
 
 // Finds by true shadow rays which of the needed lights are lit.
@@ -131,8 +154,9 @@ class FrameFacts {
 
   void add(const PreparedFrame& now) {
     const grid::Grid& grid = *now.grid;
-    measure::add_frame(result_.lights_in_view, now.frame);
-    measure::add_frame(result_.lights_beyond_grid, now.frame, grid);
+    const std::vector<bool> in_view = grid::lights_in_view(now.frame);
+    measure::add_frame(result_.lights_in_view, now.frame, in_view);
+    measure::add_frame(result_.lights_beyond_grid, now.frame, grid, in_view);
     if (moves_) moves_->add(grid.screen(), path_.spans(spec_)[static_cast<std::size_t>(now.at)]);
     for (std::size_t i = 0; i < losses_.size(); ++i) losses_[i].add_frame(now.lights.packed(i));
     if (result_.sharing) measure::add_frame(*result_.sharing, now.frame, sharing_limits(*config_.shared_frusta));
@@ -190,7 +214,7 @@ class AccuracyPass {
                             shadows_ ? &*shadows_ : nullptr, compares, has_too_many_cells);
     needs_truth_ = std::ranges::any_of(methods_, &MethodMeter::needs_grid_truth);
     for (const CasePlan& case_plan : group_.cases) cases_.emplace_back(config_, case_plan);
-    for (MethodMeter& method : methods_) works_.emplace_back(method, cases_);
+    for (MethodMeter& method : methods_) works_.emplace_back(method, cases_, memory_);
   }
 
   FrameWork<PreparedFrame> frame_work() {
@@ -298,6 +322,7 @@ class AccuracyPass {
   FrameFacts facts_;
   std::vector<MethodMeter> methods_;
   std::vector<CaseMeter> cases_;
+  ListMemory memory_;              // of all methods
   std::vector<MethodWork> works_;  // one per method
 };
 

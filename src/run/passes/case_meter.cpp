@@ -32,7 +32,8 @@ StructureMeasures StructureMeter::result() const {
 
 CaseMeter::CaseMeter(const config::Config& config, const CasePlan& plan)
     : method_(plan.method()),
-      evaluates_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
+      evaluates_lookup_(config.lookup && !assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
+      reads_cells_(evaluates_lookup_ || !config.sample_sets.empty()),
       meter_(config) {
   if (!plan.storage) return;
   const config::MethodRequest& request = config.storages[*plan.storage];
@@ -48,7 +49,10 @@ void CaseMeter::add(const PreparedFrame& now, const MethodMeter& method) {
   for (assign::Storage* storage : {storage_.get(), roomy_storage_.get()}) {
     if (storage == nullptr) continue;
     if (now.is_new_grid) storage->start(*now.grid, method.light_room(now.frame));
-    method.run().store(*storage);
+    if (reads_cells_)
+      method.run().store(*storage);
+    else
+      method.run().count(*storage);
   }
   const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().own_structure();
   meter_.add(now.frame.index, structure, method);
@@ -63,9 +67,12 @@ void CaseMeter::add(const PreparedFrame& now, const ListsOfFrame& lists) {
 }
 
 void CaseMeter::add(const PreparedFrame& now, const ListsOfFrame& lists, assign::Storage& storage,
-                    StructureMeter& meter) {
+                    StructureMeter& meter) const {
   if (now.is_new_grid) storage.start(*now.grid, now.frame.ranges());
-  storage.store(lists.filled);
+  if (reads_cells_)
+    storage.store(lists.filled);
+  else
+    storage.count(lists.filled);
   meter.add(now.frame.index, storage, &lists.cells(), lists.scratch_bytes);
 }
 

@@ -56,10 +56,11 @@ class CaseMeter {
   StructureMeasures result() const;
 
  private:
-  static void add(const PreparedFrame& now, const ListsOfFrame& lists, assign::Storage& storage, StructureMeter& meter);
+  void add(const PreparedFrame& now, const ListsOfFrame& lists, assign::Storage& storage, StructureMeter& meter) const;
 
   Method method_;
-  bool evaluates_lookup_;                     // its samples are anywhere in the view
+  bool evaluates_lookup_;                     // whose samples are anywhere in the view
+  bool reads_cells_;                          // false: sizes alone
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   StructureMeter meter_;
   // For comparison with a storage that can run out of room.

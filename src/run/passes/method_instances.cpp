@@ -4,14 +4,14 @@
 
 namespace clusterbench::run {
 
-void MethodInstances::fill(const PreparedFrame& now, ListsOfFrame& out) {
+void MethodInstances::fill(const PreparedFrame& now, ListMemory& memory, ListsOfFrame& out) {
   std::unique_ptr<Instance> one = idle_or_new();
   assign::AssignerRun& run = one->run;
   const view::LightArrays& lights = now.lights.in_precision(method_.precision);
   if (one->grid != now.grid) run.build(*(one->grid = now.grid), assign::kinds_of(lights));
+  run.use_memory_of(memory.take());
   run.assign({now.frame, lights, now.depth.get()});
-
-  run.hand_over(out.filled, out.ascending);
+  run.hand_over(order_, out.filled, out.ascending);
   out.scratch_bytes = run.scratch_bytes();
   out.tests_done = run.tests_done();
   out.fallbacks = run.fallbacks();

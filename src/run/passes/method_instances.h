@@ -8,17 +8,19 @@
 #include "assign/contract/assigner_run.h"
 #include "config/config.h"
 #include "run/cases/case_plan.h"
+#include "run/passes/list_memory.h"
 #include "run/passes/prepared_frame.h"
 
 namespace clusterbench::run {
 
 class MethodInstances {
  public:
-  // `config` must outlive this object.
-  MethodInstances(const config::Config& config, const Method& method) : config_(config), method_(method) {}
+  // `order`: of the cells' lists. `config` must outlive this object.
+  MethodInstances(const config::Config& config, const Method& method, assign::ListOrder order)
+      : config_(config), method_(method), order_(order) {}
 
   // With an instance that no other thread uses: on one thread always the same, which gets all frames in their order.
-  void fill(const PreparedFrame& now, ListsOfFrame& out);
+  void fill(const PreparedFrame& now, ListMemory& memory, ListsOfFrame& out);
 
  private:
   struct Instance {
@@ -29,6 +31,7 @@ class MethodInstances {
 
   const config::Config& config_;
   const Method method_;
+  const assign::ListOrder order_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Instance>> idle_;
 };

@@ -21,11 +21,13 @@ MethodMeter::MethodMeter(const config::Config& config, const Method& method, con
                          std::uint32_t most_lights, ListsOverFrames over_frames, LightShadows* shadows, bool compares,
                          bool has_too_many_cells)
     : compares_(compares),
+      order_(compares || over_frames == ListsOverFrames::compared || shadows != nullptr ? assign::ListOrder::ascending
+                                                                                        : assign::ListOrder::any),
       threads_(config.threads),
       most_lights_(most_lights),
       shadows_(shadows),
       run_(config, method, pre_cull),
-      instances_(std::make_unique<MethodInstances>(config, method)) {
+      instances_(std::make_unique<MethodInstances>(config, method, order_)) {
   measures_.method = method;
   if (shadows != nullptr && method.answer == assign::Answer::lists)
     for (const config::ShadowCullRequest& request : config.shadow_culls)
@@ -37,13 +39,14 @@ MethodMeter::MethodMeter(const config::Config& config, const Method& method, con
 
 void MethodMeter::add(const PreparedFrame& now) {
   assign(now);
-  if (measures_.has_cells) measure(now, run_.cell_lists());
+  if (measures_.has_cells) measure(now, run_.cell_lists(order_));
 }
 
 void MethodMeter::add(const PreparedFrame& now, const ListsOfFrame& lists) {
   measures_.tests_done += lists.tests_done;
   measures_.fallbacks += lists.fallbacks;
   measure(now, lists.cells());
+  lists_ = nullptr;  // they may be gone by the next call
 }
 
 void MethodMeter::assign(const PreparedFrame& now) {

@@ -27,8 +27,8 @@ class MethodMeter {
   // Whether the lists are all that cases and measures need of the method. Then they can be filled apart from the rest:
   bool is_done_with_lists() const { return run_.filled_lists() != nullptr && run_.cull() == nullptr; }
   // Several threads may call it for different frames if run().shares_frames(); else frame by frame.
-  void fill(const PreparedFrame& now, ListsOfFrame& out) { instances_->fill(now, out); }
-  // Frame by frame. `lists` must stay until the next call.
+  void fill(const PreparedFrame& now, ListMemory& memory, ListsOfFrame& out) { instances_->fill(now, memory, out); }
+  // Frame by frame.
   void add(const PreparedFrame& now, const ListsOfFrame& lists);
   // Evaluates some samples of visible surfaces; `is_lit`: one row per way to remove lights in shadow.
   void add_lit_samples(const grid::Grid& grid, std::span<const grid::Sample> samples,
@@ -54,6 +54,7 @@ class MethodMeter {
   void compare(const PreparedFrame& now, const grid::Grid& grid);
 
   bool compares_;
+  assign::ListOrder order_;  // in which measures need the cells' lists
   int threads_;
   std::uint32_t most_lights_;  // most lights of a frame that the method gets
   LightShadows* shadows_;
@@ -62,7 +63,7 @@ class MethodMeter {
   std::unique_ptr<MethodInstances> instances_;  // that fill()
   std::optional<PreCullMeter> cull_meter_;
   std::vector<ShadowCullMeter> shadow_culls_;  // one per way, for lists only
-  const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame
+  const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame; null behind add() of given lists
   std::optional<measure::OccupancyMeter> occupancy_;
   measure::LongestBySlice longest_by_slice_;
   std::optional<ListChangeMeter> list_changes_;

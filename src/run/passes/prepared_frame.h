@@ -39,7 +39,7 @@ struct PreparedFrame {
 // A method's lists of one frame, for those that use them while the method is at other frames.
 struct ListsOfFrame {
   assign::Lists filled;                    // as the method filled them
-  std::optional<assign::Lists> ascending;  // if those are not
+  std::optional<assign::Lists> ascending;  // if those are not, and measures need it
   std::size_t scratch_bytes = 0;
   std::uint64_t tests_done = 0, fallbacks = 0;
 
