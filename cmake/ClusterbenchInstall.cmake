@@ -17,13 +17,14 @@ endfunction()
 function(clusterbench_install)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
           DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  # Configurations name levels by ../scenes.
+  # Configurations name levels by ../scenes. Those whose lights are in scenes/peers stay behind with them.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/clusterbench
-          PATTERN peers EXCLUDE)
+          PATTERN peers EXCLUDE PATTERN "gpu*.json" EXCLUDE PATTERN method-pictures.json EXCLUDE)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
   if(WIN32)
     return() # which has neither man nor these shells
   endif()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/clusterbench USE_SOURCE_PERMISSIONS)
   clusterbench_install_output("man" ${CMAKE_INSTALL_MANDIR}/man1 clusterbench.1)
   clusterbench_install_output("completion bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions clusterbench)
   clusterbench_install_output("completion zsh" ${CMAKE_INSTALL_DATADIR}/zsh/site-functions _clusterbench)

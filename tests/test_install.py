@@ -1,6 +1,8 @@
 """`cmake --install` into an empty prefix: test_install.py CMAKE BUILD_FOLDER."""
 
+import glob
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,6 +14,9 @@ PARTS = {
     "share/doc/clusterbench/CHANGELOG.md": b"# Changelog",
     "share/clusterbench/configs/quick.json": b"{",
     "share/clusterbench/scenes/street.glb": b"glTF",
+    "share/clusterbench/slurm/merge": b"#!/bin/bash",
+    "share/clusterbench/slurm/shard": b"#!/bin/bash",
+    "share/clusterbench/slurm/submit": b"#!/bin/bash",
     "share/doc/clusterbench/docs/configuration.md": b"# Writing a configuration",
     "share/doc/clusterbench/docs/third-party.md": b"# ",
     "share/man/man1/clusterbench.1": b".TH CLUSTERBENCH 1",
@@ -38,6 +43,11 @@ def main():
         for part, start in PARTS.items():
             with open(os.path.join(prefix, part), "rb") as file:
                 assert file.read().startswith(start), part
+        for config in glob.glob(os.path.join(prefix, "share/clusterbench/configs/*.json")):
+            with open(config) as file:
+                paths = re.findall(r'"([^"$]+[.](?:glb|gltf))"', file.read())
+            for path in paths:  # others are named by variables of the environment
+                assert os.path.exists(os.path.join(os.path.dirname(config), path)), f"{config} names {path}"
         version = subprocess.run([os.path.join(prefix, "bin/clusterbench"), "--version"], check=True, capture_output=True)
         assert version.stdout.startswith(b"clusterbench "), version.stdout
 

@@ -30,11 +30,13 @@ struct Pattern::Expression : RegularExpression {
 
 namespace {
 
+constexpr std::string_view k_special = "()[]{}.+*?|^$\\";
+
 // "\\ makes ( ) + plain characters", for those characters of the text that are special in a regular expression; "":
 // none.
 std::string escapes_text(std::string_view text) {
   std::string special;
-  for (const char character : std::string_view("()[]{}.+*?|^$\\"))
+  for (const char character : k_special)
     if (text.find(character) != std::string_view::npos) special += std::string(1, character) + " ";
   if (special.empty()) return "";
   return "\\ makes " + special + (special.size() == 2 ? "a plain character" : "plain characters");
@@ -75,6 +77,15 @@ bool Pattern::is_literally_in(std::string_view text) const {
 
 bool Pattern::is(std::string_view text) const {
   return text == text_;
+}
+
+std::string literal_expression(std::string_view text) {
+  std::string out;
+  for (const char character : text) {
+    if (k_special.find(character) != std::string_view::npos) out += '\\';
+    out += character;
+  }
+  return out;
 }
 
 std::string pattern_hint(std::string_view text) {

@@ -30,6 +30,9 @@ class Pattern {
   std::shared_ptr<const Expression> expression_;  // null: of every text
 };
 
+// The regular expression that matches this text alone.
+std::string literal_expression(std::string_view text);
+
 // Text to append to a message that nothing matches, which names the special characters of the text: ", neither as it
 // stands nor as a regular expression, in which \ makes ( ) plain characters"; "" if it has none.
 std::string pattern_hint(std::string_view text);

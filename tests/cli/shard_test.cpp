@@ -278,6 +278,8 @@ TEST_F(ShardedRun, does_not_replace_the_result_of_another_shard) {
             std::string::npos)
       << refused.err;
   EXPECT_EQ(file_text(folder_ / "one.json"), before);
+  EXPECT_EQ(run(sweep, "--shard 1/2", "one.json").code, 2) << "the first of two is another than the first of three";
+  EXPECT_EQ(file_text(folder_ / "one.json"), before);
   EXPECT_EQ(run(sweep, "--shard 1/3", "one.json").code, 0);
   EXPECT_EQ(file_text(folder_ / "one.json"), before);
 }

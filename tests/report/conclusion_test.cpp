@@ -9,6 +9,7 @@
 #include "config/schema/schema_verdict.h"
 #include "core/libraries.h"
 #include "records.h"
+#include "report/cases/case_filter.h"
 #include "report/choosing/answer_conclusion.h"
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"
@@ -39,6 +40,29 @@ Json only_conclusion(const run::Result& result) {
 
 bool has_words(const Json& conclusion, const std::string& part) {
   return conclusion["text"].get<std::string>().find(part) != std::string::npos;
+}
+
+TEST(Conclusion, names_a_filter_that_selects_what_it_takes_alone) {
+  const std::string grid = "frustum 64px x 16 exponential/", fixed = grid + "exact-fast/fixed(cap=8)";
+  result::Result result;
+  for (const char* camera : {"a", "b"})
+    for (const char* storage : {"packed", "packed(equal_lists=shared)", "fixed(cap=8)", "fixed(cap=80)", "linked"}) {
+      result::Case& one = result.cases.emplace_back();
+      one.scene = "hall";
+      one.camera = camera;
+      one.grid.name = "frustum 64px x 16 exponential";
+      one.assigner.name = "exact-fast";
+      one.storage = storage;
+      one.name = one.scene + "/" + one.camera + "/" + grid + "exact-fast/" + one.storage;
+    }
+  EXPECT_EQ(filter_of(grid + "exact-fast/linked", result), grid + "exact-fast/linked");
+  EXPECT_EQ(filter_of(fixed, result), fixed) << "of no other name a part";
+  const std::string filter = filter_of(grid + "exact-fast/packed", result);
+  EXPECT_EQ(filter, grid + "exact-fast/packed$");
+  result::Result kept = result;
+  keep_cases(kept, filter, "");
+  ASSERT_EQ(kept.cases.size(), 2u);
+  EXPECT_EQ(kept.cases[1].name, "hall/b/" + grid + "exact-fast/packed");
 }
 
 TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sure) {

@@ -29,7 +29,7 @@ std::string next_text(const RunFlags& flags, const result::Result& result) {
     add(flags.inputs.paths);
     add(setting_arguments(flags.inputs, {"--fail-if", "--launches", "--rounds"}));
   }
-  if (!is_of_result || recommended.size() == 1) add({"--filter", recommended.front()});
+  if (!is_of_result || recommended.size() == 1) add({"--filter", report::filter_of(recommended.front(), result)});
   return "next: " + shell_command(words) + "   sizes its buffers\n";
 }
 

@@ -60,8 +60,8 @@ void refuse_other_shard(const std::string& output, const run::PlannedShard& shar
   const Json earlier = json_or_discarded<Json>(file_text(output));
   if (!earlier.is_object() || !earlier.contains("shard") || !earlier["shard"].is_object()) return;
   const Json &index = earlier["shard"].value("index", Json()), &count = earlier["shard"].value("count", Json());
-  if (earlier["shard"].value("sweep", Json()) != shard.sweep || !index.is_number_unsigned() || index == shard.index)
-    return;
+  const bool is_same = index == shard.index && count == shard.count;
+  if (earlier["shard"].value("sweep", Json()) != shard.sweep || !index.is_number_unsigned() || is_same) return;
   throw Error(output, "/shard",
               "holds " + shard_name(index, count.is_number_unsigned() ? count.get<std::uint64_t>() : shard.count) +
                   " of this run, which " + shard_name(shard.index, shard.count) +

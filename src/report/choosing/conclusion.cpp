@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/pattern.h"
 #include "core/text.h"
 #include "measure/statistics/side_by_side.h"
 #include "report/cases/case_costs.h"
@@ -317,6 +318,18 @@ std::vector<std::string> taken_names(const result::Result& result) {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   return names;
+}
+
+std::string filter_of(const std::string& taken, const result::Result& result) {
+  const auto selects = [&](const std::string& filter, bool taken_ones) {
+    const Pattern pattern(filter, "--filter");
+    return std::ranges::any_of(result.cases, [&](const Case& one) {
+      const bool is_taken = run::name_without_camera(names_of_case(one), true) == taken;
+      return is_taken == taken_ones && is_selected(pattern, one);
+    });
+  };
+  const std::string ending = literal_expression(taken) + "$";
+  return selects(taken, false) && selects(ending, true) ? ending : taken;
 }
 
 std::string conclusions_text(const result::Result& result) {

@@ -25,8 +25,11 @@ void conclude_failures(result::Result& result, const std::vector<std::string>& f
 // "none, since the run FAILED: ..." for such a result.
 std::string failed_conclusion(const result::Result& result);
 
-// The names of recommended cases, each once, over all cameras; --filter accepts them.
+// The names of recommended cases, each once, over all cameras.
 std::vector<std::string> taken_names(const result::Result& result);
+// The --filter that selects the cases of such a name, and no others of the result: the name itself, or where it is a
+// part of other names, too, an expression that ends with it.
+std::string filter_of(const std::string& taken, const result::Result& result);
 
 // Lines that begin with "conclusion: ", the last ones of a run; "" if the result has none.
 std::string conclusions_text(const result::Result& result);

@@ -62,6 +62,7 @@ void refuse_history(const std::string& path, std::string_view text) {
 result::Result read_result(const std::string& path) {
   const std::string text = file_text(path);
   if (text.empty()) throw Error(path, "", "is empty");
+  if (text.starts_with("glTF")) throw Error(path, "", "is a glTF scene; wanted is a result of `clusterbench run`");
   if (is_journal(text))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
   refuse_history(path, text);
