@@ -309,6 +309,7 @@ class BvhLists final : public ListAssigner {
     const std::uint64_t pairs = out.lights.size() + std::uint64_t{count};
     if (pairs > most_pairs_) check_memory("pairs of light lists", pairs, sizeof(std::uint32_t));
     check_pair_count(pairs);
+    if (pairs > out.lights.capacity()) out.lights.reserve(std::min(2 * pairs, most_pairs_));
     out.lights.insert(out.lights.end(), found_.begin(), found_.begin() + count);
     out.begin[cell + 1] = static_cast<std::uint32_t>(pairs);
   }

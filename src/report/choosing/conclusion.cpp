@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "measure/statistics/side_by_side.h"
@@ -328,8 +329,12 @@ std::string filter_of(const std::string& taken, const result::Result& result) {
       return is_taken == taken_ones && is_selected(pattern, one);
     });
   };
-  const std::string ending = literal_expression(taken) + "$";
-  return selects(taken, false) && selects(ending, true) ? ending : taken;
+  const std::string literal = literal_expression(taken), ending = literal + "$";
+  try {
+    return selects(literal, false) && selects(ending, true) ? ending : taken;
+  } catch (const Error&) {  // a name that no expression can hold
+    return taken;
+  }
 }
 
 std::string conclusions_text(const result::Result& result) {
