@@ -301,7 +301,7 @@ TEST(GuardedRun, measures_the_others_again_if_a_plug_in_crashes_among_their_roun
 TEST(GuardedRun, of_several_launches_loses_the_case_that_crashes_in_one_of_them) {
   for (const char* fault : {"segv", "throw", "hang"}) {
     GuardedPlace place;
-    const Outcome done = place.run({std::string(R"(, "call": 40, "fault": ")") + fault + "\"", ""},
+    const Outcome done = place.run({std::string(R"(, "call": 12, "fault": ")") + fault + "\"", ""},
                                    "--plugin-timeout 2", R"(, "launches": 3)");
     EXPECT_EQ(done.code, 1) << done.err;
     const Json result = place.result();
