@@ -43,14 +43,14 @@ bool has_words(const Json& conclusion, const std::string& part) {
 }
 
 TEST(Conclusion, names_a_filter_that_selects_what_it_takes_alone) {
-  const std::string grid = "frustum 64px x 16 exponential/", fixed = grid + "exact-fast/fixed(cap=8)";
+  const std::string grid = "frustum 64px (near 0.5)/", fixed = grid + "exact-fast/fixed(cap=8)";
   result::Result result;
   for (const char* camera : {"a", "b"})
     for (const char* storage : {"packed", "packed(equal_lists=shared)", "fixed(cap=8)", "fixed(cap=80)", "linked"}) {
       result::Case& one = result.cases.emplace_back();
       one.scene = "hall";
       one.camera = camera;
-      one.grid.name = "frustum 64px x 16 exponential";
+      one.grid.name = "frustum 64px (near 0.5)";
       one.assigner.name = "exact-fast";
       one.storage = storage;
       one.name = one.scene + "/" + one.camera + "/" + grid + "exact-fast/" + one.storage;
@@ -58,7 +58,7 @@ TEST(Conclusion, names_a_filter_that_selects_what_it_takes_alone) {
   EXPECT_EQ(filter_of(grid + "exact-fast/linked", result), grid + "exact-fast/linked");
   EXPECT_EQ(filter_of(fixed, result), fixed) << "of no other name a part";
   const std::string filter = filter_of(grid + "exact-fast/packed", result);
-  EXPECT_EQ(filter, grid + "exact-fast/packed$");
+  EXPECT_EQ(filter, R"(frustum 64px \(near 0\.5\)/exact-fast/packed$)");
   result::Result kept = result;
   keep_cases(kept, filter, "");
   ASSERT_EQ(kept.cases.size(), 2u);

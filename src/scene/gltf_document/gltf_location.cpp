@@ -14,7 +14,7 @@ namespace {
 // Numbers within half a step of the largest float round to it.
 constexpr double k_float_max = std::numeric_limits<float>::max(), k_half_step = 0x1p103;
 
-// RFC 6901: '~' and '/' inside a name are escaped.
+// The pointer to a member or an element. RFC 6901: '~' and '/' inside a name are escaped.
 std::string child_of(const std::string& pointer, std::string_view name) {
   std::string out;
   out.reserve(pointer.size() + 1 + name.size());
