@@ -53,28 +53,23 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
   return out;
 }
 
-std::string short_hash(const Json& all) {
-  constexpr std::size_t k_digits = 12;
-  return sha256_hex(all.dump()).substr(0, k_digits);
+// JSON texts by key.
+using Members = std::map<std::string, std::string>;
+
+std::string object_text(const Members& members) {
+  std::string text = "{";
+  for (const auto& [key, value] : members) text += (text.size() > 1 ? ",\"" : "\"") + key + "\":" + value;
+  return text + "}";
 }
 
-// Settings that change the counts of a case; timing and threads do not.
-Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
-  const Vec2i viewport = config.viewports[plan.viewport];
-  const config::MethodRequest& assigner = config.assigners[plan.assigner];
-  Json storage = k_own_structure;
-  if (plan.storage) {
-    const config::MethodRequest& kept_in = config.storages[*plan.storage];
-    storage = identity(kept_in, assign::find_storage(kept_in.name)->params);
-  }
-  Json all{{"scene", identity(config.scenes[plan.scene], data)},
-           {"camera", {data.paths[plan.camera].camera, plan.camera}},
-           {"viewport", {viewport.x, viewport.y}},
-           {"grid", config::grid_identity(config.grids[plan.grid])},
-           {"assigner", identity(assigner, assign::find_assigner(assigner.name)->params)},
-           {"storage", std::move(storage)},
-           {"seed", config.seed},
-           {"shading_samples", 0}};
+std::string short_hash(const Members& all) {
+  constexpr std::size_t k_digits = 12;
+  return sha256_hex(object_text(all)).substr(0, k_digits);
+}
+
+// Settings that change the counts of all cases; timing and threads do not.
+Json common_identity(const config::Config& config) {
+  Json all{{"seed", config.seed}, {"shading_samples", 0}};
   for (const config::SampleSetRequest& request : config.sample_sets) {
     if (request.set == measure::SampleSet::volume)
       all["shading_samples"] = request.count;
@@ -96,20 +91,69 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
     const config::SharedFrustaRequest& frusta = *config.shared_frusta;
     all["shadow_frusta"] = {frusta.apart_m, frusta.turned_deg, frusta.growth};
   }
-  const config::PrecisionRequest& precision = config.precisions[plan.precision];
-  if (!plan.preset.empty()) all["preset"] = plan.preset;
-  if (const cull::PreCullSpec& pre_cull = config.pre_culls[plan.pre_cull]; !pre_cull.is_none())
-    all["pre_cull"] = pre_cull.label();
-  if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
   return all;
+}
+
+// The text at `key`, made if it is missing.
+template <class Texts, class Key, class Make>
+const auto& text_at(Texts& texts, const Key& key, const Make& make) {
+  const auto known = texts.find(key);
+  return known != texts.end() ? known->second : texts.emplace(key, make()).first->second;
 }
 
 }  // namespace
 
-CaseIdentity identity_of(const config::Config& config, const SceneData& data, const CasePlan& plan) {
-  Json all = identity(config, data, plan);
+CaseIdentities::CaseIdentities(const config::Config& config) : config_(config) {
+  const Json common = common_identity(config);
+  for (const auto& [key, value] : common.items()) common_[key] = value.dump();
+}
+
+const CaseIdentities::SceneTexts& CaseIdentities::scene(const SceneData& data, std::size_t index) {
+  return text_at(scenes_, index, [&] {
+    Json all = identity(config_.scenes[index], data);
+    SceneTexts texts{all.dump(), ""};
+    all.erase("sha256");
+    texts.without = all.dump();
+    return texts;
+  });
+}
+
+const std::string& CaseIdentities::grid(std::size_t index) {
+  return text_at(grids_, index, [&] { return config::grid_identity(config_.grids[index]).dump(); });
+}
+
+const std::string& CaseIdentities::assigner(std::size_t index) {
+  return text_at(assigners_, index, [&] {
+    const config::MethodRequest& method = config_.assigners[index];
+    return identity(method, assign::find_assigner(method.name)->params).dump();
+  });
+}
+
+const std::string& CaseIdentities::storage(std::optional<std::size_t> index) {
+  return text_at(storages_, index, [&] {
+    if (!index) return Json(k_own_structure).dump();
+    const config::MethodRequest& kept_in = config_.storages[*index];
+    return identity(kept_in, assign::find_storage(kept_in.name)->params).dump();
+  });
+}
+
+CaseIdentity CaseIdentities::of(const SceneData& data, const CasePlan& plan) {
+  const Vec2i viewport = config_.viewports[plan.viewport];
+  const SceneTexts& scene_texts = scene(data, plan.scene);
+  Members all = common_;
+  all["scene"] = scene_texts.with_contents;
+  all["camera"] = Json{data.paths[plan.camera].camera, plan.camera}.dump();
+  all["viewport"] = Json{viewport.x, viewport.y}.dump();
+  all["grid"] = grid(plan.grid);
+  all["assigner"] = assigner(plan.assigner);
+  all["storage"] = storage(plan.storage);
+  if (!plan.preset.empty()) all["preset"] = Json(plan.preset).dump();
+  if (const cull::PreCullSpec& pre_cull = config_.pre_culls[plan.pre_cull]; !pre_cull.is_none())
+    all["pre_cull"] = Json(pre_cull.label()).dump();
+  if (const config::PrecisionRequest& precision = config_.precisions[plan.precision]; precision.is_lossy())
+    all["precision"] = Json{view::packing_name(precision.packing), precision.inflate}.dump();
   CaseIdentity out{short_hash(all), ""};
-  all["scene"].erase("sha256");
+  all["scene"] = scene_texts.without;
   out.settings = short_hash(all);
   return out;
 }

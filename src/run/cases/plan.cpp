@@ -36,7 +36,7 @@ class Expansion {
  public:
   // Adds to `plan`, whose scenes are loaded. Both must outlive this object.
   Expansion(const config::Config& config, const std::string& filter, Plan& plan)
-      : config_(config), filter_(filter, "--filter"), plan_(plan) {}
+      : config_(config), filter_(filter, "--filter"), plan_(plan), identities_(config) {}
 
   void expand() {
     for (std::size_t scene = 0; scene < plan_.scenes.size(); ++scene)
@@ -224,7 +224,7 @@ class Expansion {
 
   void add_case(GroupPlan& group, CasePlan case_plan) {
     case_plan.name = names_.add(case_plan.name);
-    const CaseIdentity identity = identity_of(config_, plan_.scenes[group.scene], case_plan);
+    const CaseIdentity identity = identities_.of(plan_.scenes[group.scene], case_plan);
     case_plan.id = ids_.add(identity.id);
     case_plan.settings = identity.settings;
     ++all_cases_;
@@ -260,6 +260,7 @@ class Expansion {
   const config::Config& config_;
   Pattern filter_;
   Plan& plan_;
+  CaseIdentities identities_;
   UniqueNames names_, ids_;
   std::map<std::string, std::string> without_grid_;  // settings that its structure depends on -> the case's name
   std::size_t all_cases_ = 0;
