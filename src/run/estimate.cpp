@@ -173,7 +173,8 @@ std::size_t sampled_at_once(const config::Config& config, const Plan& plan) {
 // Whether sampling has taken long enough, also in comparison with the counting and the timing that it is about.
 bool is_enough(double passed_ns, const EstimateLimits& limits, double counting_ns, double timing_ns) {
   constexpr double k_share = 0.1, k_share_of_timing = 0.03;
-  return passed_ns > k_share * counting_ns + k_share_of_timing * timing_ns || passed_ns >= 1e9 * limits.most_s;
+  return passed_ns > k_share * limits.counted_share * counting_ns + k_share_of_timing * timing_ns ||
+         passed_ns >= 1e9 * limits.most_s;
 }
 
 }  // namespace

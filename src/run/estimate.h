@@ -13,6 +13,7 @@ namespace clusterbench::run {
 // Limits of the sampling, and the times to be estimated.
 struct EstimateLimits {
   double most_s = 6.0;             // no further group is sampled after this time
+  double counted_share = 1.0;      // the part of the plan's counting that is going to be done
   int warm_rounds = k_all_rounds;  // see LaunchRequest
 };
 

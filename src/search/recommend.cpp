@@ -193,6 +193,7 @@ class ViewSearch {
   }
 
   void add_work(const Candidate& candidate, std::uint64_t cells, std::size_t frames) {
+    const std::lock_guard lock(sharing_);
     view_.candidates[static_cast<std::size_t>(&candidate - view_.candidates.data())].cells = cells;
     found_.work.measurements += frames;
   }
@@ -263,20 +264,24 @@ class ViewSearch {
     return cases;
   }
 
-  // Counts candidates on some frames, grid by grid; then gives the cases of each grid's, in the order of the grids.
-  // What is timed runs alone: after all counting.
+  // Counts candidates on some frames, grid by grid, and calls use(candidates, cases) for those of each grid: on several
+  // threads, but what is timed runs alone, after all counting.
   template <class Use>
   void measure_grids(std::span<const std::size_t> candidates, std::span<const FrameOfView> frames, bool is_timed,
                      const Use& use) {
     std::vector<std::vector<std::size_t>> grids;
     for (auto& [grid, some] : by_grid(candidates)) grids.push_back(std::move(some));
     std::vector<std::vector<CountedCamera>> counts(grids.size());
+    const auto finish = [&](std::size_t i) {
+      std::vector<std::vector<run::CaseResult>> cases = measured(grids[i], std::exchange(counts[i], {}), is_timed);
+      if (!watch_.stop) use(grids[i], std::move(cases));
+    };
     each_apart(candidates, grids.size(), [&](std::size_t i, int threads) {
       counts[i] = counted(grids[i], frames, threads);
+      if (!is_timed) finish(i);
       report_done(grids[i].size());
     });
-    for (std::size_t i = 0; i < grids.size() && !watch_.stop; ++i)
-      use(grids[i], measured(grids[i], std::exchange(counts[i], {}), is_timed));
+    for (std::size_t i = 0; is_timed && i < grids.size() && !watch_.stop; ++i) finish(i);
   }
 
   std::vector<run::TimingResult> quick_times(const run::GroupPlan& group, const run::PathFrames& path) const {
@@ -303,13 +308,13 @@ class ViewSearch {
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size(),
                 costs_.rung_ns(candidates.size(), grids_, frames));
+    std::vector<Verdict> verdicts(view_.candidates.size());
     measure_grids(candidates, std::span(order_).first(frames), request_.is_timed,
                   [&](std::span<const std::size_t> some, const std::vector<std::vector<run::CaseResult>>& cases) {
-                    if (watch_.stop) return;
-                    for (std::size_t i = 0; i < some.size(); ++i)
-                      found_.records[some[i]] = {frames, verdict_of(cases[i], frames), k_unknown};
+                    for (std::size_t i = 0; i < some.size(); ++i) verdicts[some[i]] = verdict_of(cases[i], frames);
                   });
     if (watch_.stop) return;
+    for (const std::size_t index : candidates) found_.records[index] = {frames, std::move(verdicts[index]), k_unknown};
     for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
   }
 
@@ -402,7 +407,7 @@ class ViewSearch {
     std::vector<Finalist> finalists;
     measure_grids(candidates, order_, false,
                   [&](std::span<const std::size_t> some, std::vector<std::vector<run::CaseResult>> cases) {
-                    if (watch_.stop) return;
+                    const std::lock_guard lock(sharing_);
                     for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
                   });
     return watch_.stop ? std::vector<Finalist>{} : std::move(finalists);
@@ -496,7 +501,7 @@ class ViewSearch {
   }
   // So many more of the stage's candidates are counted: on any thread.
   void report_done(std::size_t more = 1) {
-    const std::lock_guard lock(reporting_);
+    const std::lock_guard lock(sharing_);
     report_progress(progress_.cases_done + more);
   }
   // `done` of the stage's candidates.
@@ -524,7 +529,7 @@ class ViewSearch {
   std::vector<FrameOfView> order_;
   Found found_;
   mutable Budget lists_{static_cast<double>(memory_limit())};  // of grids that are counted at the same time, in bytes
-  std::mutex reporting_;
+  std::mutex sharing_;                                         // what threads add to: finalists, work and progress
   run::Progress progress_;
   double before_stage_ns_ = 0.0, stage_ns_ = 0.0;
 };
@@ -582,11 +587,14 @@ Halving planned_halving(const View& view, const Request& request) {
   });
 }
 
-SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view) {
+SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view, const Request& request) {
   std::vector<run::GroupPlan> groups;
   for (const run::GroupPlan& group : plan.groups)
     if (group.scene == view.scene && group.viewport == view.viewport) groups.push_back(group);
-  return sampled_costs(config, plan, groups);
+  const SearchCosts per_frame;  // the same for every candidate on a frame
+  const double all = per_frame.counting_ns(view.candidates.size(), 0, view.frames);
+  const double planned = planned_ns(per_frame, planned_halving(view, request), 0, view.frames);
+  return sampled_costs(config, plan, groups, std::min(1.0, planned / all));
 }
 
 double estimated_s(const SearchCosts& costs, const View& view, const Request& request) {

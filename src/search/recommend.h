@@ -103,7 +103,7 @@ Halving planned_halving(const View& view, const Request& request);
 
 // Estimated costs of a view's search, from which its duration and an upper bound follow. `plan` is unchanged
 // afterwards.
-SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view);
+SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view, const Request& request);
 double estimated_s(const SearchCosts& costs, const View& view, const Request& request);
 
 // `costs`: for the displayed progress. Sets the cells of the view's candidates. Finalists are timed by `launcher`

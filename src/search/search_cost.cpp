@@ -27,6 +27,12 @@ std::vector<run::GroupPlan> with_one_case(std::span<const run::GroupPlan> groups
   return some;
 }
 
+double case_count(std::span<const run::GroupPlan> groups) {
+  double count = 0.0;
+  for (const run::GroupPlan& group : groups) count += static_cast<double>(group.cases.size());
+  return count;
+}
+
 // Means over the groups, per frame of counting and per case of timing.
 struct MeanCosts {
   double cases = 0.0, counting_ns = 0.0, timing_ns = 0.0;
@@ -79,9 +85,16 @@ config::Config quickly_timed(config::Config config) {
   return config;
 }
 
-SearchCosts sampled_costs(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups) {
-  const MeanCosts some = mean_costs(quickly_timed(config), plan, with_two_methods(groups), {4.0, k_quick_warm_rounds}),
-                  one = mean_costs(config, plan, with_one_case(groups), {2.0});
+SearchCosts sampled_costs(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups,
+                          double counted_share) {
+  const std::vector<run::GroupPlan> of_two = with_two_methods(groups), of_one = with_one_case(groups);
+  // Half of the sampling each, although both have only a part of the cases.
+  const double half = 0.5 * counted_share * case_count(groups);
+  const run::EstimateLimits of_two_limits{
+      .most_s = 4.0, .counted_share = half / case_count(of_two), .warm_rounds = k_quick_warm_rounds},
+      of_one_limits{.most_s = 2.0, .counted_share = half / case_count(of_one)};
+  const MeanCosts some = mean_costs(quickly_timed(config), plan, of_two, of_two_limits),
+                  one = mean_costs(config, plan, of_one, of_one_limits);
   SearchCosts costs;
   const double more_cases = std::max(1.0, some.cases - one.cases);
   costs.candidate_ns = std::max((some.counting_ns - one.counting_ns) / more_cases, 0.02 * some.counting_ns);

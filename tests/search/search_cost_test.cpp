@@ -40,7 +40,7 @@ TEST(SearchCosts, a_look_leaves_the_plan_as_it_was_and_finds_times_only_where_th
     walk.config.timing = {
         .measure = is_timed, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1, .sweep_mib = 4};
     const std::vector<View> views = views_of(walk.config, walk.plan);
-    const SearchCosts costs = estimated_costs(walk.config, walk.plan, views[0]);
+    const SearchCosts costs = estimated_costs(walk.config, walk.plan, views[0], {});
     ASSERT_EQ(walk.plan.groups.size(), groups.size());
     for (std::size_t i = 0; i < groups.size(); ++i) EXPECT_EQ(walk.plan.groups[i].cases.size(), groups[i].cases.size());
     EXPECT_GT(costs.candidate_ns, 0.0);

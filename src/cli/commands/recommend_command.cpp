@@ -226,7 +226,7 @@ void print_duration(const config::Config& config, run::Plan& plan, const search:
   std::size_t candidates = 0;
   for (std::size_t i = 0; i < searches.views.size(); ++i) {
     const search::View& view = searches.views[i];
-    const search::SearchCosts costs = searches.costs[i] = search::estimated_costs(config, plan, view);
+    const search::SearchCosts costs = searches.costs[i] = search::estimated_costs(config, plan, view, request);
     candidates += view.candidates.size();
     all_s += search::estimated_s(costs, view, request);
     counting_s += search::estimated_s({costs.grid_ns, costs.candidate_ns}, view, request);
