@@ -1,5 +1,5 @@
-// H31: a search for lights that touch a cell and are not listed.
-//
+#include "stress/lost_light_search.h"
+
 // A state is a world (projection, picture, grid) with lights that touch a chosen cell: a contact on the cell's surface
 // and a light against it. Each light is tried at several positions: touching; moved away by some roundoffs (a
 // conservative method still lists it: the distance is the margin that the search minimises); and, for methods without
@@ -7,10 +7,10 @@
 // no larger. The best worlds have children, too.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "assign/contract/method_error.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/light_volume.h"
@@ -19,7 +19,6 @@
 #include "measure/truth/truth.h"
 #include "os/call_notes.h"
 #include "stress/contact.h"
-#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -353,52 +352,82 @@ class Climb {
   std::vector<std::size_t> lost_steps_;
 };
 
+class HillClimb : public LostLightSearch {
+ public:
+  HillClimb(const StressMethod& method, const StressRequest& request)
+      : method_(method),
+        request_(request),
+        ladder_(method.conservative),
+        random_(request.seed),
+        world_(random_world(random_, *method.assigner)) {
+    result_.method = method.label;
+  }
+
+  bool is_over() const override { return !result_.fault.empty() || has_enough(searched_ns_); }
+
+  double done() const override {
+    if (is_over()) return 1.0;
+    const double tries = static_cast<double>(result_.tries) / static_cast<double>(request_.tries);
+    return request_.seconds > 0.0 ? std::max(tries, 1e-9 * searched_ns_ / request_.seconds) : tries;
+  }
+
+  void climb(const std::atomic<bool>& stop) override {
+    os::note_setting("--cases '^H31$' --seed " + std::to_string(request_.seed) + ", method " + method_.label);
+    const double start = wall_ns();
+    try {
+      climb_from(start, stop);
+    } catch (const assign::MethodError& error) {
+      result_.fault = error.message();
+    } catch (const gpu::DeviceError& error) {
+      if (!stop) result_.fault = error.message();  // a signal leaves a device's work behind
+    }
+    searched_ns_ += wall_ns() - start;
+  }
+
+  SearchResult result() const override {
+    SearchResult result = result_;
+    // Steps 0 .. best_ - 1 are not listed: the first listed step is the margin.
+    result.least_margin = best_ >= ladder_.touching() ? 0.0 : ladder_.roundoffs(best_);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t k_population = 48;
+  static constexpr int k_generations = 24;
+
+  bool has_enough(double searched_ns) const {
+    return result_.tries >= request_.tries || (request_.seconds > 0.0 && searched_ns >= 1e9 * request_.seconds);
+  }
+
+  void climb_from(double start, const std::atomic<bool>& stop) {
+    const World next =
+        random_.below(3) == 0 ? random_world(random_, *method_.assigner) : mutated(world_, random_, *method_.assigner);
+    Climb climb(method_, next, ladder_);
+    result_.tries += k_population;
+    if (!climb.fits()) return;
+    climb.start(k_population, random_);
+    for (int i = 0; i < k_generations && !stop && !has_enough(searched_ns_ + wall_ns() - start); ++i)
+      result_.tries += climb.step(random_);
+    climb.collect(result_);
+    if (climb.best() < best_) return;
+    best_ = climb.best();
+    world_ = next;
+  }
+
+  const StressMethod& method_;
+  const StressRequest& request_;
+  const Ladder ladder_;
+  SplitMix64 random_;
+  World world_;           // the best one
+  std::size_t best_ = 0;  // steps of the ladder that are not listed there
+  double searched_ns_ = 0.0;
+  SearchResult result_;
+};
+
 }  // namespace
 
-SearchResult search_for_losses(const StressMethod& method, const StressRequest& request,
-                               const std::function<void(std::uint64_t tries)>& on_progress,
-                               const std::atomic<bool>& stop) {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t k_population = 48;
-  constexpr int k_generations = 24;
-  const Ladder ladder(method.conservative);
-  const auto begin = Clock::now();
-  const auto is_over = [&](std::uint64_t tries) {
-    const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
-    return stop || tries >= request.tries || (request.seconds > 0.0 && passed >= request.seconds);
-  };
-  SearchResult result;
-  result.method = method.label;
-  SplitMix64 random(request.seed);
-  World world = random_world(random, *method.assigner);
-  std::size_t best = 0;
-  const auto climb_once = [&] {
-    const World next =
-        random.below(3) == 0 ? random_world(random, *method.assigner) : mutated(world, random, *method.assigner);
-    Climb climb(method, next, ladder);
-    result.tries += k_population;
-    if (!climb.fits()) return on_progress(result.tries);
-    climb.start(k_population, random);
-    for (int generation = 0; generation < k_generations && !is_over(result.tries); ++generation)
-      result.tries += climb.step(random);
-    climb.collect(result);
-    if (climb.best() >= best) {
-      best = climb.best();
-      world = next;
-    }
-    on_progress(result.tries);
-  };
-  os::note_setting("--cases '^H31$' --seed " + std::to_string(request.seed) + ", method " + method.label);
-  while (!is_over(result.tries) && result.fault.empty()) try {
-      climb_once();
-    } catch (const assign::MethodError& error) {
-      result.fault = error.message();
-    } catch (const gpu::DeviceError& error) {
-      if (!stop) result.fault = error.message();  // a signal leaves a device's work behind
-    }
-  // Steps 0 .. best - 1 are not listed: the first listed step is the margin.
-  result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundoffs(best);
-  return result;
+std::unique_ptr<LostLightSearch> lost_light_search(const StressMethod& method, const StressRequest& request) {
+  return std::make_unique<HillClimb>(method, request);
 }
 
 }  // namespace clusterbench::stress

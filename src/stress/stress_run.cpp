@@ -1,16 +1,20 @@
 #include "stress/stress_run.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <numeric>
 
 #include "assign/contract/method_error.h"
 #include "config/config.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "measure/truth/list_errors.h"
 #include "os/call_notes.h"
+#include "stress/lost_light_search.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -85,18 +89,40 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
   }
 }
 
-// Methods on several threads; then those on a device, one after the other, since one that fails is closed before the
-// next.
-template <class Work>
-void each_beside_device(ThreadPool& pool, const std::vector<StressMethod>& methods, const Work& work) {
-  each_in_order(pool, methods.size(), [&](std::size_t i) {
-    if (!methods[i].assigner->on_device) work(i);
-  });
-  for (std::size_t i = 0; i < methods.size(); ++i)
-    if (methods[i].assigner->on_device) work(i);
-}
+// Work on methods, time and again.
+class MethodRounds {
+ public:
+  MethodRounds(int threads, const std::vector<StressMethod>& methods)
+      : pool_(threads), methods_(methods), last_ns_(methods.size(), 0.0) {}
 
-std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
+  // Calls work(i) for each method: for several at the same time, and first for those that took longest in the last
+  // round, so that no thread waits long for the last one; then for those on a device, one after the other, since one
+  // that fails is closed before the next.
+  template <class Work>
+  void each(const Work& work) {
+    std::vector<std::size_t> order(methods_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto on_device = std::ranges::stable_partition(order, [&](std::size_t i) { return !is_on_device(i); });
+    std::ranges::stable_sort(order.begin(), on_device.begin(), std::greater<>{},
+                             [&](std::size_t i) { return last_ns_[i]; });
+    each_in_order(pool_, order.size() - on_device.size(), [&](std::size_t place) {
+      const std::size_t i = order[place];
+      const double start = wall_ns();
+      work(i);
+      last_ns_[i] = wall_ns() - start;
+    });
+    for (const std::size_t i : on_device) work(i);
+  }
+
+ private:
+  bool is_on_device(std::size_t i) const { return methods_[i].assigner->on_device; }
+
+  ThreadPool pool_;
+  const std::vector<StressMethod>& methods_;
+  std::vector<double> last_ns_;
+};
+
+std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods, MethodRounds& rounds,
                                  const StressRequest& request, const std::atomic<bool>& stop) {
   std::vector<StressCell> cells;
   for (const StressMethod& method : methods) {
@@ -105,7 +131,6 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
     cells.back().method = method.label;
   }
   const std::vector<Trial> trials = hard.trials == nullptr ? std::vector<Trial>{} : hard.trials(request.seed);
-  ThreadPool pool(request.threads);
   for (const Trial& trial : trials) {
     if (stop) break;
     const bool is_wanted =
@@ -115,35 +140,36 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
     const auto try_method = [&](std::size_t i) {
       if (supports_trial(methods[i], trial) && !cells[i].is_ended) add_trial(cells[i], methods[i], trial, at);
     };
-    each_beside_device(pool, methods, try_method);
+    rounds.each(try_method);
   }
   std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
   return cells;
 }
 
-// One search per method.
-std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, const StressRequest& request,
+// One search per method; all advance together, so that one that ends early has searched all about as far.
+std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, MethodRounds& rounds,
+                                       const StressRequest& request,
                                        const std::function<void(const std::string& method, double done)>& on_tries,
                                        const std::atomic<bool>& stop) {
-  std::vector<SearchResult> results(methods.size());
+  std::vector<std::unique_ptr<LostLightSearch>> searches(methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (!methods[i].assigner->needs.depth)  // it moves lights against the grid's cells
+      searches[i] = lost_light_search(methods[i], request);
+  const auto is_over = [](const auto& search) { return search == nullptr || search->is_over(); };
   std::mutex telling;
-  double tries = 0.0;
-  const auto search = [&](std::size_t i) {
-    if (stop || methods[i].assigner->needs.depth) return;  // the search moves lights against the grid's cells
-    std::uint64_t before = 0;
-    const auto on_progress = [&](std::uint64_t now) {
-      const std::lock_guard lock(telling);
-      tries += static_cast<double>(now - before);
-      before = now;
-      on_tries(methods[i].label, tries / static_cast<double>(request.tries));
-    };
-    results[i] = search_for_losses(methods[i], request, on_progress, stop);
+  std::vector<double> done(searches.size(), 0.0);
+  const auto climb = [&](std::size_t i) {
+    if (stop || is_over(searches[i])) return;
+    searches[i]->climb(stop);
+    if (methods[i].assigner->on_device && !searches[i]->result().fault.empty()) gpu::close_device();
+    const std::lock_guard lock(telling);
+    done[i] = searches[i]->done();
+    on_tries(methods[i].label, std::accumulate(done.begin(), done.end(), 0.0));
   };
-  ThreadPool pool(request.threads);
-  each_beside_device(pool, methods, [&](std::size_t i) {
-    search(i);
-    if (methods[i].assigner->on_device && !results[i].fault.empty()) gpu::close_device();
-  });
+  while (!stop && !std::ranges::all_of(searches, is_over)) rounds.each(climb);
+  std::vector<SearchResult> results;
+  for (const auto& search : searches)
+    if (search != nullptr) results.push_back(search->result());
   return results;
 }
 
@@ -221,12 +247,13 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
   const auto report_progress = [&](const std::string& doing, double done) {
     if (listener.on_progress) listener.on_progress(doing, done, whole);
   };
+  MethodRounds rounds(request.threads, result.methods);
   double done = 0.0;
   for (const HardCase& hard : result.cases) {
     if (stop) break;
     report_progress(std::string(hard.id) + " " + hard.title, done++);
     std::vector<ToolCheck> checks = hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed);
-    const std::vector<StressCell> cells = run_case(hard, result.methods, request, stop);
+    const std::vector<StressCell> cells = run_case(hard, result.methods, rounds, request, stop);
     if (stop) break;  // the case is incomplete
     result.checks.push_back(std::move(checks));
     result.cells.insert(result.cells.end(), cells.begin(), cells.end());
@@ -236,7 +263,7 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
     const auto on_tries = [&](const std::string& method, double methods_done) {
       report_progress("H31 " + method, done + methods_done);
     };
-    result.searches = run_searches(result.methods, request, on_tries, stop);
+    result.searches = run_searches(result.methods, rounds, request, on_tries, stop);
     std::erase_if(result.searches,
                   [](const SearchResult& search) { return search.tries == 0 && search.fault.empty(); });
   }

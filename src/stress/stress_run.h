@@ -92,11 +92,6 @@ struct StressListener {
 // On `stop` it ends with the cases, searches and settings done so far.
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
 
-// H31 for one method: hill-climbs lights, projections and grids towards a light that touches a cell and is not listed.
-SearchResult search_for_losses(const StressMethod& method, const StressRequest& request,
-                               const std::function<void(std::uint64_t tries)>& on_progress,
-                               const std::atomic<bool>& stop);
-
 // Checks random settings, each with a seed of its own, and shrinks the faults. The result does not depend on the number
 // of threads, unless the time limit ends it.
 RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,

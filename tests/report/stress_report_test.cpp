@@ -14,6 +14,7 @@
 #include "report/searches/stress_report.h"
 #include "run/runner.h"
 #include "stress/contact.h"
+#include "stress/lost_light_search.h"
 #include "stress/stress_run.h"
 
 namespace clusterbench::stress {
@@ -39,8 +40,9 @@ StressMethod method_named(const std::string& name, const std::map<std::string, a
 SearchResult searched(const StressMethod& method, std::uint64_t tries) {
   StressRequest request;
   request.tries = tries;
-  return search_for_losses(
-      method, request, [](std::uint64_t) {}, k_never);
+  const std::unique_ptr<LostLightSearch> search = lost_light_search(method, request);
+  while (!search->is_over()) search->climb(k_never);
+  return search->result();
 }
 
 TEST(HardCases, are_all_of_h1_to_h35_but_the_search) {
@@ -106,6 +108,24 @@ TEST(Stress, that_is_stopped_tells_of_the_cases_that_are_whole) {
   EXPECT_TRUE(result.searches.empty());
   EXPECT_FALSE(result.random);
   EXPECT_EQ(report::stress_document(result, request).interrupted, true);
+}
+
+// A search climbs one world of at most 25 x 48 tries before the next method does.
+TEST(Stress, that_is_stopped_within_its_searches_has_searched_all_methods_about_as_far) {
+  std::atomic<bool> stop{false};
+  StressRequest request;
+  request.cases = Pattern("^H31$", "--cases");
+  request.methods = Pattern("^(bounds|exact|aabb|naive-refinement)$", "--methods");
+  request.threads = 2;
+  StressListener listener;
+  listener.on_progress = [&](const std::string&, double done, double) { stop = stop || done > 1.0; };
+  const StressResult result = run_stress(request, listener, stop);
+  EXPECT_TRUE(result.interrupted);
+  ASSERT_EQ(result.searches.size(), 4U);
+  for (const SearchResult& search : result.searches) {
+    EXPECT_GT(search.tries, request.tries / 8) << search.method;
+    EXPECT_LT(search.tries, request.tries / 2) << search.method;
+  }
 }
 
 TEST(Stress, is_written_as_its_schema_says) {
