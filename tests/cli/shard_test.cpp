@@ -92,6 +92,18 @@ TEST_F(ShardedRun, may_have_more_shards_than_work) {
   EXPECT_EQ(file_text(folder_ / "merged.json"), file_text(folder_ / "whole.json"));
 }
 
+TEST_F(ShardedRun, is_sized_with_a_warning_that_other_shards_can_need_more) {
+  const std::string sweep = folder_.write("small.json", small_config()).string();
+  run_shards(sweep, 4);
+  const std::string of_all = "other shards can need more: size the result that `clusterbench merge` makes of all\n";
+  const Outcome one = tool("size " + path("4-1.json")), none = tool("size " + path("4-4.json"));
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(one.err, "clusterbench: warning: " + path("4-1.json") + ": is shard 1 of 4 of a run; " + of_all);
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.err, "clusterbench: warning: " + path("4-4.json") +
+                          ": is shard 4 of 4 of a run, one that no case is left for; " + of_all);
+}
+
 TEST_F(ShardedRun, takes_the_cases_that_a_filter_selects) {
   const std::string sweep = config();
   ASSERT_EQ(run(sweep, "--filter /exact/", "whole.json").code, 0);

@@ -247,10 +247,13 @@ TEST(SizeMarks, a_search_counts_for_each_view) {
   request.format = "table";
   const std::string text = marks_of(result, request);
   EXPECT_NE(
-      text.find("indices: 120 in 5000 frames tried (seed 1, --keep-height), of 2 cameras searched, 2 views together, "
+      text.find("indices: 120 in 5000 frames tried (seed 1, --keep-height) for each of 2 cameras, 2 views together, "
                 "each in its own worst frame, 1.71 times the most seen; the worst: camera right at (1, 2, 3) m"),
       std::string::npos)
       << text;
+  request.scope.found[1].evaluations = 4999;
+  const std::string unequal = marks_of(result, request);
+  EXPECT_NE(unequal.find(", by one of the searches of 2 cameras, 2 views together"), std::string::npos) << unequal;
 }
 
 TEST(SizeMarks, each_camera_is_searched_and_of_its_viewports_the_one_that_needs_most) {

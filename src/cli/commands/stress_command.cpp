@@ -188,7 +188,9 @@ void add_stress(Command& program, Action& action) {
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");
-  command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method, in whole rounds of 48; 0 = no search")
+  command
+      .add_option("--tries", flags->request.tries,
+                  "Tries of the search H31 per method, in whole rounds of 48; 0 = no search")
       .shows_standard();
   command
       .add_option("--random", flags->request.random,
