@@ -27,19 +27,21 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of all frames on `threads` threads, estimated from one frame on config.threads:
-// the second of two, since memory grows in the first. Depths are cast once for all groups, so their time is not counted
-// again for other groups.
+// Truth, lists, samples and buffers of all frames on `threads` threads, estimated from two frames on config.threads:
+// memory grows in the first, and what all frames share is made there. Depths are cast once for all groups, so their
+// time is not counted again for other groups.
 double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
                    int frames, int threads) {
   const std::atomic<bool> stop{false};
-  double start = 0.0;
   const PathFrames two = path.only({path.count() / 3, 2 * path.count() / 3});
   double cast_ns = 0.0;
   for (int i = 0; i < 2; ++i) cast_ns = duration_ns([&] { depths_for(config, group, two, two.frame(i)); });
+  const double start = wall_ns();
+  double last = start;
   accuracy_pass(
-      config, data, group, two, [&](int) { start = wall_ns(); }, stop);
-  return (wall_ns() - start + cast_ns) * frames / threads;
+      config, data, group, two, [&](int) { last = wall_ns(); }, stop);
+  const double first_ns = last - start, next_ns = wall_ns() - last;
+  return (first_ns + next_ns * (frames - 1) + cast_ns * frames) / threads;
 }
 
 // For an even number of values, the lower one of the two in the middle; 0 without values.
@@ -131,8 +133,8 @@ GroupCost cost_of_group(const config::Config& config, int threads, const Plan& p
   }
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
-  GroupCost cost{.counting_ns =
-                     counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps, threads)};
+  const int frames = limits.counts_one_frame ? 1 : path.count() + steps;
+  GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, frames, threads)};
   const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   const GroupPlan on_device = device_cases(config, group);
@@ -173,7 +175,7 @@ std::size_t sampled_at_once(const config::Config& config, const Plan& plan) {
 // Whether sampling has taken long enough, also in comparison with the counting and the timing that it is about.
 bool is_enough(double passed_ns, const EstimateLimits& limits, double counting_ns, double timing_ns) {
   constexpr double k_share = 0.1, k_share_of_timing = 0.03;
-  return passed_ns > k_share * limits.counted_share * counting_ns + k_share_of_timing * timing_ns ||
+  return passed_ns > k_share * limits.times_counted * counting_ns + k_share_of_timing * timing_ns ||
          passed_ns >= 1e9 * limits.most_s;
 }
 
@@ -186,7 +188,9 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing, on_device, reading;  // counting: of predicted work; timing: of a method
+  std::vector<double> timing, on_device, reading;  // timing: of a method
+  double counted_ns = 0.0, counted_work = 0.0;     // of the sampled groups
+  const auto counting_ns_of = [&](double of_work) { return sampled == 0 ? 0.0 : counted_ns * of_work / counted_work; };
   std::vector<double> timed_methods;
   for (const GroupPlan& group : plan.groups)
     timed_methods.push_back(static_cast<double>(methods_of(timed_cases(config, group)).size()));
@@ -199,7 +203,7 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   on_one_thread.threads = 1;
   const int threads = std::min(config.threads, processors());
   for (const double start = wall_ns();
-       sampled < groups && (sampled == 0 || !is_enough(wall_ns() - start, limits, median(counting) * all_work,
+       sampled < groups && (sampled == 0 || !is_enough(wall_ns() - start, limits, counting_ns_of(all_work),
                                                        median(timing) * all_methods));) {
     const std::size_t first = sampled;
     sampled = std::min(groups, first + at_once);
@@ -209,16 +213,16 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
     });
     for (std::size_t i = first; i < sampled; ++i) {
       const GroupCost& cost = costs[i * stride % groups];
-      counting.push_back(cost.counting_ns / work[i * stride % groups]);
+      counted_ns += cost.counting_ns;
+      counted_work += work[i * stride % groups];
       if (const double methods = timed_methods[i * stride % groups]; methods > 0.0)
         timing.push_back(cost.timing_ns / methods);
       on_device.push_back(cost.device_ns);
       reading.push_back(cost.reading_ns);
     }
   }
-  // A few groups take far longer than predicted: a sampled group like that stands for itself only.
   for (std::size_t i = sampled; i < groups; ++i)
-    costs[i * stride % groups] = {median(counting) * work[i * stride % groups],
+    costs[i * stride % groups] = {counting_ns_of(work[i * stride % groups]),
                                   median(timing) * timed_methods[i * stride % groups], median(on_device),
                                   median(reading)};
   return costs;

@@ -591,10 +591,9 @@ SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const
   std::vector<run::GroupPlan> groups;
   for (const run::GroupPlan& group : plan.groups)
     if (group.scene == view.scene && group.viewport == view.viewport) groups.push_back(group);
-  const SearchCosts per_frame;  // the same for every candidate on a frame
-  const double all = per_frame.counting_ns(view.candidates.size(), 0, view.frames);
-  const double planned = planned_ns(per_frame, planned_halving(view, request), 0, view.frames);
-  return sampled_costs(config, plan, groups, std::min(1.0, planned / all));
+  const SearchCosts same;  // for every candidate on a frame
+  const double planned = planned_ns(same, planned_halving(view, request), 0, view.frames);
+  return sampled_costs(config, plan, groups, planned / same.counting_ns(view.candidates.size(), 0, 1));
 }
 
 double estimated_s(const SearchCosts& costs, const View& view, const Request& request) {

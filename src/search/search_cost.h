@@ -33,9 +33,9 @@ double planned_ns(const SearchCosts& costs, const Halving& planned, std::size_t 
 config::Config quickly_timed(config::Config config);
 inline constexpr int k_quick_warm_rounds = 1;
 
-// For groups with one grid each on a camera, of whose counting a search does about `counted_share`. `plan` is unchanged
-// afterwards. Takes a tenth of the search, and a few seconds at most.
+// For groups with one grid each on a camera, which a search counts about so many times on one frame. `plan` is
+// unchanged afterwards. Takes a tenth of the search, and a few seconds at most.
 SearchCosts sampled_costs(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups,
-                          double counted_share);
+                          double times_counted);
 
 }  // namespace clusterbench::search
