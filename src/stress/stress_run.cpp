@@ -1,7 +1,6 @@
 #include "stress/stress_run.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -102,16 +101,16 @@ class MethodRounds {
   void each(const Work& work) {
     std::vector<std::size_t> order(methods_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto on_device = std::ranges::stable_partition(order, [&](std::size_t i) { return !is_on_device(i); });
-    std::ranges::stable_sort(order.begin(), on_device.begin(), std::greater<>{},
-                             [&](std::size_t i) { return last_ns_[i]; });
-    each_in_order(pool_, order.size() - on_device.size(), [&](std::size_t place) {
+    const auto on_device =
+        std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return !is_on_device(i); });
+    std::stable_sort(order.begin(), on_device, [&](std::size_t a, std::size_t b) { return last_ns_[a] > last_ns_[b]; });
+    each_in_order(pool_, static_cast<std::size_t>(on_device - order.begin()), [&](std::size_t place) {
       const std::size_t i = order[place];
       const double start = wall_ns();
       work(i);
       last_ns_[i] = wall_ns() - start;
     });
-    for (const std::size_t i : on_device) work(i);
+    std::for_each(on_device, order.end(), work);
   }
 
  private:
