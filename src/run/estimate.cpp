@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "assign/contract/method_error.h"
@@ -10,6 +11,8 @@
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
 #include "os/call_notes.h"
+#include "run/cases/frame_depths.h"
+#include "run/cases/frame_samples.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/device_pass.h"
 #include "run/shards.h"
@@ -27,21 +30,39 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of all frames on `threads` threads, estimated from two frames on config.threads:
-// memory grows in the first, and what all frames share is made there. Depths are cast once for all groups, so their
-// time is not counted again for other groups.
-double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
-                   int frames, int threads) {
+// What a group takes on this machine. Depths are cast once for all groups of a path.
+struct SampledCost {
+  GroupCost cost;  // without depths that are cast here
+  double casting_ns = 0.0;
+};
+
+// The time that some frames' depths take, from the last one's; `path`: with one frame or two, whose depths are cast
+// then. 0 if they were before.
+double casting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path) {
+  std::vector<config::SampleSetRequest> of_surfaces = config.sample_sets;
+  std::erase_if(of_surfaces, [](const auto& request) { return request.set == measure::SampleSet::volume; });
+  const FrameSamples samples(config, of_surfaces, data, path);
+  const auto prepare = [&](int frame) {
+    depths_for(config, group, path, path.frame(frame));
+    samples.of(path.frame(frame));
+  };
+  for (int frame = 0; frame + 1 < path.count(); ++frame) prepare(frame);
+  const double cold = duration_ns([&] { prepare(path.count() - 1); });
+  return std::max(0.0, cold - duration_ns([&] { prepare(path.count() - 1); }));
+}
+
+// Truth, lists, samples and buffers of so many frames, estimated from two of them: memory grows in the first, and what
+// the others share is made there.
+double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& some,
+                   int frames) {
   const std::atomic<bool> stop{false};
-  const PathFrames two = path.only({path.count() / 3, 2 * path.count() / 3});
-  double cast_ns = 0.0;
-  for (int i = 0; i < 2; ++i) cast_ns = duration_ns([&] { depths_for(config, group, two, two.frame(i)); });
-  const double start = wall_ns();
-  double last = start;
-  accuracy_pass(
-      config, data, group, two, [&](int) { last = wall_ns(); }, stop);
-  const double first_ns = last - start, next_ns = wall_ns() - last;
-  return (first_ns + next_ns * (frames - 1) + cast_ns * frames) / threads;
+  double first = 0.0, last = 0.0;  // when they began
+  const auto on_frame = [&](int) {
+    last = wall_ns();
+    if (first == 0.0) first = last;
+  };
+  accuracy_pass(config, data, group, some, on_frame, stop);
+  return last - first + (wall_ns() - last) * (frames - some.count() + 1);
 }
 
 // For an even number of values, the lower one of the two in the middle; 0 without values.
@@ -125,8 +146,8 @@ double reading_ns(const config::Config& config, const GroupPlan& group, const Pa
 }
 
 // `config`: with one thread; `threads`: that the run has.
-GroupCost cost_of_group(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
-                        double sweep_ns, const EstimateLimits& limits) {
+SampledCost cost_of_group(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
+                          double sweep_ns, const EstimateLimits& limits) {
   if (runs_elsewhere(config, group)) {
     os::note_group(group.cases.front().id);
     os::note_pass("estimate of the duration");
@@ -134,19 +155,25 @@ GroupCost cost_of_group(const config::Config& config, int threads, const Plan& p
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   const int frames = limits.counts_one_frame ? 1 : path.count() + steps;
-  GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, frames, threads)};
+  const PathFrames some =
+      path.only(frames == 1 ? std::vector{path.count() / 2} : std::vector{path.count() / 3, 2 * path.count() / 3});
+  const SceneData& data = plan.scenes[group.scene];
+  SampledCost sampled;
+  sampled.casting_ns = casting_ns(config, data, group, some) * frames / threads;
+  GroupCost& cost = sampled.cost;
+  cost.counting_ns = counting_ns(config, data, group, some, frames) / threads;
   const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   const GroupPlan on_device = device_cases(config, group);
   if (config.timing.measure && !on_device.cases.empty()) cost.device_ns = device_ns(config, on_device, path);
   cost.reading_ns = reading_ns(config, group, path);
-  return cost;
+  return sampled;
 }
 
 // If a device fails at it, that of the cases without one; if these fail, too, or anything else does, none: the run
 // itself says what has failed, in the order of its cases.
-GroupCost cost_of_what_runs(const config::Config& config, int threads, const Plan& plan, const GroupPlan& group,
-                            double sweep_ns, const EstimateLimits& limits) {
+std::optional<SampledCost> cost_of_what_runs(const config::Config& config, int threads, const Plan& plan,
+                                             const GroupPlan& group, double sweep_ns, const EstimateLimits& limits) {
   for (GroupPlan left = group; !left.cases.empty();) {
     try {
       return cost_of_group(config, threads, plan, left, sweep_ns, limits);
@@ -161,7 +188,7 @@ GroupCost cost_of_what_runs(const config::Config& config, int threads, const Pla
       break;
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 // Groups whose costs are sampled at the same time: one, where something is timed.
@@ -171,6 +198,45 @@ std::size_t sampled_at_once(const config::Config& config, const Plan& plan) {
                         });
   return is_alone ? 1 : static_cast<std::size_t>(config.threads);
 }
+
+// What sampled groups say of the others: counting follows the predicted work, timing the methods.
+class SampledMeans {
+ public:
+  SampledMeans(const config::Config& config, const Plan& plan, const EstimateLimits& limits)
+      : work_(predicted_counting(config, plan)) {
+    const double steps = config.stability ? config.stability->steps : 0;
+    for (std::size_t i = 0; i < work_.size(); ++i) {
+      const GroupPlan& group = plan.groups[i];
+      const auto frames = static_cast<double>(plan.scenes[group.scene].paths[group.camera].shots.size());
+      if (limits.counts_one_frame) work_[i] /= frames + steps;
+      timed_methods_.push_back(static_cast<double>(methods_of(timed_cases(config, group)).size()));
+    }
+  }
+
+  void add(std::size_t group, const GroupCost& cost) {
+    counted_ns_ += cost.counting_ns;
+    counted_work_ += work_[group];
+    if (timed_methods_[group] > 0.0) timing_of_method_.push_back(cost.timing_ns / timed_methods_[group]);
+    on_device_.push_back(cost.device_ns);
+    reading_.push_back(cost.reading_ns);
+  }
+
+  GroupCost cost_of(std::size_t group) const {
+    return {counting_ns(work_[group]), median(timing_of_method_) * timed_methods_[group], median(on_device_),
+            median(reading_)};
+  }
+  double all_counting_ns() const { return counting_ns(std::accumulate(work_.begin(), work_.end(), 0.0)); }
+  double all_timing_ns() const {
+    return median(timing_of_method_) * std::accumulate(timed_methods_.begin(), timed_methods_.end(), 0.0);
+  }
+
+ private:
+  double counting_ns(double work) const { return counted_work_ > 0.0 ? counted_ns_ * work / counted_work_ : 0.0; }
+
+  std::vector<double> work_, timed_methods_;  // by group
+  double counted_ns_ = 0.0, counted_work_ = 0.0;
+  std::vector<double> timing_of_method_, on_device_, reading_;  // of the sampled groups
+};
 
 // Whether sampling has taken long enough, also in comparison with the counting and the timing that it is about.
 bool is_enough(double passed_ns, const EstimateLimits& limits, double counting_ns, double timing_ns) {
@@ -187,45 +253,31 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   const std::size_t groups = plan.groups.size();
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
-  std::vector<GroupCost> costs(groups);
-  std::vector<double> timing, on_device, reading;  // timing: of a method
-  double counted_ns = 0.0, counted_work = 0.0;     // of the sampled groups
-  const auto counting_ns_of = [&](double of_work) { return sampled == 0 ? 0.0 : counted_ns * of_work / counted_work; };
-  std::vector<double> timed_methods;
-  for (const GroupPlan& group : plan.groups)
-    timed_methods.push_back(static_cast<double>(methods_of(timed_cases(config, group)).size()));
-  const double all_methods = std::accumulate(timed_methods.begin(), timed_methods.end(), 0.0);
-  const std::vector<double> work = predicted_counting(config, plan);
-  const double all_work = std::accumulate(work.begin(), work.end(), 0.0);
+  std::vector<std::optional<SampledCost>> costs(groups);
+  SampledMeans means(config, plan, limits);
   const std::size_t at_once = sampled_at_once(config, plan);
   ThreadPool pool(static_cast<int>(at_once));
   config::Config on_one_thread = config;
   on_one_thread.threads = 1;
   const int threads = std::min(config.threads, processors());
   for (const double start = wall_ns();
-       sampled < groups && (sampled == 0 || !is_enough(wall_ns() - start, limits, counting_ns_of(all_work),
-                                                       median(timing) * all_methods));) {
+       sampled < groups &&
+       (sampled == 0 || !is_enough(wall_ns() - start, limits, means.all_counting_ns(), means.all_timing_ns()));) {
     const std::size_t first = sampled;
     sampled = std::min(groups, first + at_once);
     each_in_order(pool, sampled - first, [&](std::size_t i) {
       const std::size_t index = (first + i) * stride % groups;
       costs[index] = cost_of_what_runs(on_one_thread, threads, plan, plan.groups[index], sweep_ns, limits);
     });
-    for (std::size_t i = first; i < sampled; ++i) {
-      const GroupCost& cost = costs[i * stride % groups];
-      counted_ns += cost.counting_ns;
-      counted_work += work[i * stride % groups];
-      if (const double methods = timed_methods[i * stride % groups]; methods > 0.0)
-        timing.push_back(cost.timing_ns / methods);
-      on_device.push_back(cost.device_ns);
-      reading.push_back(cost.reading_ns);
-    }
+    for (std::size_t i = first; i < sampled; ++i)
+      if (const std::size_t index = i * stride % groups; costs[index]) means.add(index, costs[index]->cost);
   }
-  for (std::size_t i = sampled; i < groups; ++i)
-    costs[i * stride % groups] = {counting_ns_of(work[i * stride % groups]),
-                                  median(timing) * timed_methods[i * stride % groups], median(on_device),
-                                  median(reading)};
-  return costs;
+  std::vector<GroupCost> all;
+  for (std::size_t i = 0; i < groups; ++i) {
+    all.push_back(costs[i] ? costs[i]->cost : means.cost_of(i));
+    if (costs[i]) all.back().counting_ns += costs[i]->casting_ns;
+  }
+  return all;
 }
 
 double sum_s(std::span<const GroupCost> costs) {

@@ -16,7 +16,6 @@
 #include "core/turns.h"
 #include "core/work_in_order.h"
 #include "gpu/device/device.h"
-#include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"
@@ -30,17 +29,6 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 // The first number of a standing's rank.
 constexpr double k_first = 0.0, k_equal = 1.0, k_broken = 2.0;
-
-// The identity of a candidate within a view.
-using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
-Key key_of(const run::CasePlan& plan) {
-  return {plan.grid, plan.assigner, plan.precision, plan.storage ? *plan.storage + 1 : 0};
-}
-
-// "grid/assigner/storage" of "scene/camera/grid/assigner/storage".
-std::string short_name(const std::string& name) {
-  return name.substr(name.find('/', name.find('/') + 1) + 1);
-}
 
 // A frame of a view: index of the camera, and of that camera's frame.
 struct FrameOfView {
@@ -65,24 +53,12 @@ std::size_t grids_of(const View& view) {
   return grids.size();
 }
 
-// If all candidates of a view are of one kind, none is separate.
-void set_apart(const config::Config& config, View& view) {
-  const auto is_searched = [&](const Candidate& candidate) {
-    const run::CasePlan& plan = *candidate.cases.front();
-    return !plan.storage && assign::find_assigner(config.assigners[plan.assigner].name)->own_is_searched();
-  };
-  if (std::ranges::all_of(view.candidates, is_searched)) return;
-  for (Candidate& candidate : view.candidates) candidate.is_apart = is_searched(candidate);
-}
-
-// Boxes are assigned to cells, too, but light nothing.
-bool sees_no_light(const config::Config& config, const run::Plan& plan, const run::GroupPlan& group) {
-  if (!plan.scenes[group.scene].scene.boxes.empty()) return false;
-  const run::PathFrames path = run::path_of(config, plan, group);
-  measure::LightsInView in_view;
-  for (int frame = 0; frame < path.count() && in_view.seen() == 0; ++frame)
-    measure::add_frame(in_view, path.frame(frame));
-  return in_view.seen() == 0;
+// On how many frames the planned search counts a candidate, on average.
+double frames_of_candidate(const View& view, const Request& request) {
+  const Halving planned = planned_halving(view, request);
+  std::size_t counted = (planned.finalists.size() + k_most_coarse) * view.frames;
+  for (const Rung& rung : planned.rungs) counted += rung.candidates * rung.frames;
+  return static_cast<double>(counted) / static_cast<double>(view.candidates.size());
 }
 
 // After all frames of the view: a constraint whose figure is unknown is not satisfied.
@@ -281,7 +257,8 @@ class ViewSearch {
       if (!is_timed) finish(i);
       report_done(grids[i].size());
     });
-    for (std::size_t i = 0; is_timed && i < grids.size() && !watch_.stop; ++i) finish(i);
+    if (is_timed)
+      for (std::size_t i = 0; i < grids.size() && !watch_.stop; ++i) finish(i);
   }
 
   std::vector<run::TimingResult> quick_times(const run::GroupPlan& group, const run::PathFrames& path) const {
@@ -308,13 +285,12 @@ class ViewSearch {
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size(),
                 costs_.rung_ns(candidates.size(), grids_, frames));
-    std::vector<Verdict> verdicts(view_.candidates.size());
     measure_grids(candidates, std::span(order_).first(frames), request_.is_timed,
                   [&](std::span<const std::size_t> some, const std::vector<std::vector<run::CaseResult>>& cases) {
-                    for (std::size_t i = 0; i < some.size(); ++i) verdicts[some[i]] = verdict_of(cases[i], frames);
+                    for (std::size_t i = 0; i < some.size(); ++i)
+                      found_.records[some[i]] = {frames, verdict_of(cases[i], frames), k_unknown};
                   });
     if (watch_.stop) return;
-    for (const std::size_t index : candidates) found_.records[index] = {frames, std::move(verdicts[index]), k_unknown};
     for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
   }
 
@@ -536,51 +512,6 @@ class ViewSearch {
 
 }  // namespace
 
-std::vector<View> views_of(const config::Config& config, const run::Plan& plan) {
-  std::map<std::pair<std::size_t, std::size_t>, View> views;
-  std::map<std::pair<std::size_t, std::size_t>, std::map<Key, Candidate>> candidates;
-  std::map<std::size_t, std::map<std::size_t, bool>> blind;  // by scene and camera
-  for (const run::GroupPlan& group : plan.groups) {
-    std::map<std::size_t, bool>& of_scene = blind[group.scene];
-    if (!of_scene.contains(group.camera)) of_scene[group.camera] = sees_no_light(config, plan, group);
-  }
-  for (const run::GroupPlan& group : plan.groups) {
-    const std::pair key{group.scene, group.viewport};
-    View& view = views[key];
-    view.scene = group.scene;
-    view.viewport = group.viewport;
-    // If all cameras are blind, all are used, and the answer reports it.
-    const bool is_left_out = blind[group.scene][group.camera] &&
-                             !std::ranges::all_of(blind[group.scene], [](const auto& camera) { return camera.second; });
-    std::vector<std::size_t>& cameras = is_left_out ? view.blind : view.cameras;
-    if (cameras.empty() || cameras.back() != group.camera) cameras.push_back(group.camera);
-    if (is_left_out) continue;
-    for (const run::CasePlan& plan_of_case : group.cases) {
-      Candidate& candidate = candidates[key][key_of(plan_of_case)];
-      candidate.grid = group.grid;
-      if (candidate.cases.empty()) candidate.name = short_name(plan_of_case.name);
-      candidate.cases.push_back(&plan_of_case);
-    }
-  }
-  std::vector<View> out;
-  for (auto& [key, view] : views) {
-    for (const std::size_t camera : view.cameras) view.frames += plan.scenes[view.scene].paths[camera].shots.size();
-    for (auto& [_, candidate] : candidates[key]) {
-      if (candidate.cases.size() == view.cameras.size())
-        view.candidates.push_back(std::move(candidate));
-      else
-        ++view.incomplete;
-    }
-    std::ranges::stable_sort(view.candidates, {}, [&](const Candidate& candidate) {
-      const int slowness = assign::slowness_of(config.assigners[candidate.cases.front()->assigner].name);
-      return std::tuple(candidate.grid, slowness != 1, slowness, candidate.name);
-    });
-    set_apart(config, view);
-    out.push_back(std::move(view));
-  }
-  return out;
-}
-
 Halving planned_halving(const View& view, const Request& request) {
   return halve(halving_of(view, request), [](std::span<const std::size_t> candidates, std::size_t) {
     return std::vector<Standing>(candidates.size());
@@ -588,12 +519,14 @@ Halving planned_halving(const View& view, const Request& request) {
 }
 
 SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view, const Request& request) {
+  if (view.candidates.empty()) return {};
   std::vector<run::GroupPlan> groups;
   for (const run::GroupPlan& group : plan.groups)
-    if (group.scene == view.scene && group.viewport == view.viewport) groups.push_back(group);
-  const SearchCosts same;  // for every candidate on a frame
-  const double planned = planned_ns(same, planned_halving(view, request), 0, view.frames);
-  return sampled_costs(config, plan, groups, planned / same.counting_ns(view.candidates.size(), 0, 1));
+    if (group.scene == view.scene && group.viewport == view.viewport &&
+        std::ranges::find(view.cameras, group.camera) != view.cameras.end())
+      groups.push_back(group);
+  return sampled_costs(config, plan, groups,
+                       frames_of_candidate(view, request) / static_cast<double>(view.cameras.size()));
 }
 
 double estimated_s(const SearchCosts& costs, const View& view, const Request& request) {

@@ -7,6 +7,24 @@
 namespace clusterbench::search {
 namespace {
 
+// With at least two methods of each group, and with more if all of a group on each thread are no more than a tenth of
+// all groups' methods.
+std::vector<run::GroupPlan> with_some_methods(std::span<const run::GroupPlan> groups, int threads) {
+  std::vector<run::GroupPlan> some(groups.begin(), groups.end());
+  std::size_t all = 0;
+  for (const run::GroupPlan& group : groups) all += run::methods_of(group).size();
+  const std::size_t most = std::max<std::size_t>(2, all / (10 * static_cast<std::size_t>(threads)));
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const std::vector<run::Method> methods = run::methods_of(some[i]);
+    if (methods.size() <= most) continue;
+    std::vector<run::Method> kept;  // spread over all, and others in the next group
+    for (std::size_t k = 0; k < most; ++k) kept.push_back(methods[(i + k * methods.size() / most) % methods.size()]);
+    std::erase_if(some[i].cases,
+                  [&](const run::CasePlan& one) { return std::ranges::find(kept, one.method()) == kept.end(); });
+  }
+  return some;
+}
+
 std::vector<run::GroupPlan> with_one_case(std::span<const run::GroupPlan> groups) {
   std::vector<run::GroupPlan> some(groups.begin(), groups.end());
   for (std::size_t i = 0; i < some.size(); ++i) some[i].cases = {some[i].cases[7 * i % some[i].cases.size()]};
@@ -66,12 +84,12 @@ config::Config quickly_timed(config::Config config) {
 
 SearchCosts sampled_costs(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups,
                           double times_counted) {
-  // Half of the sampling each: of about as many groups, since each is a share of its own counting.
+  // Each of about as many groups, since it takes the same share of its own counting.
   run::EstimateLimits limits{.most_s = 4.0,
                              .counts_one_frame = true,
-                             .times_counted = 0.5 * times_counted,
+                             .times_counted = 0.8 * times_counted,
                              .warm_rounds = k_quick_warm_rounds};
-  const MeanCosts whole = mean_costs(quickly_timed(config), plan, {groups.begin(), groups.end()}, limits);
+  const MeanCosts whole = mean_costs(quickly_timed(config), plan, with_some_methods(groups, config.threads), limits);
   limits.most_s = 2.0;
   limits.warm_rounds = run::k_all_rounds;
   const MeanCosts one = mean_costs(config, plan, with_one_case(groups), limits);

@@ -312,6 +312,27 @@ TEST(SearchView, stops_when_it_is_to) {
   EXPECT_TRUE(found.finalists.empty());
 }
 
+TEST(SearchView, keeps_what_it_has_measured_of_the_stage_in_which_it_is_stopped) {
+  for (const bool is_timed : {false, true}) {
+    Walk walk = small_walk(20);
+    walk.config.timing = {is_timed, 2, 0.01, 2, 1, false};
+    std::atomic<bool> stop{false};
+    std::set<std::string> grids;
+    const Evaluate evaluate = [&](std::span<const run::CaseResult> cases) {
+      grids.insert(cases[0].grid["cells"].dump());
+      stop = stop || grids.size() == 3;
+      return Verdict{entries(cases), 0.0, {}, false};
+    };
+    std::vector<View> views = views_of(walk.config, walk.plan);
+    const Found found =
+        search_view(walk.config, walk.plan, views[0], {.evaluate = evaluate, .is_timed = is_timed}, {}, {{}, stop});
+    EXPECT_FALSE(found.is_complete);
+    EXPECT_TRUE(found.finalists.empty());
+    const auto is_measured = [](const Record& record) { return record.frames == 1; };
+    EXPECT_EQ(std::ranges::count_if(found.records, is_measured), 3 * 6) << "three methods in two storages on each grid";
+  }
+}
+
 TEST(RecommendSpace, has_conservative_methods_of_all_kinds_of_grids_and_fast_forms_alone) {
   const nlohmann::json space = recommend_space();
   const auto has = [&](const char* name) {

@@ -52,5 +52,14 @@ TEST(SearchCosts, a_look_leaves_the_plan_as_it_was_and_finds_times_only_where_th
   }
 }
 
+TEST(SearchCosts, of_a_view_in_which_nothing_can_be_chosen_are_not_sampled) {
+  Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb"], "storages": ["packed"])", 6);
+  std::vector<View> views = views_of(walk.config, walk.plan);
+  views[0].candidates.clear();
+  const SearchCosts costs = estimated_costs(walk.config, walk.plan, views[0], {});
+  EXPECT_EQ(costs.candidate_ns, SearchCosts{}.candidate_ns);
+  EXPECT_EQ(costs.grid_ns, 0.0);
+}
+
 }  // namespace
 }  // namespace clusterbench::search

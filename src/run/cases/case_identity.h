@@ -1,7 +1,9 @@
 #pragma once
 // The identity of a case: the same in every run and on every machine.
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "run/cases/case_plan.h"
