@@ -1,10 +1,10 @@
-#include "stress/lost_light_search.h"
-
 // A state is a world (projection, picture, grid) with lights that touch a chosen cell: a contact on the cell's surface
 // and a light against it. Each light is tried at several positions: touching; moved away by some roundoffs (a
 // conservative method still lists it: the distance is the margin that the search minimises); and, for methods without
 // guarantees, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin is
 // no larger. The best worlds have children, too.
+
+#include "stress/lost_light_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -363,7 +363,8 @@ class HillClimb : public LostLightSearch {
     result_.method = method.label;
   }
 
-  bool is_over() const override { return !result_.fault.empty() || has_enough(searched_ns_); }
+  bool is_over() const override { return has_failed() || has_enough(searched_ns_); }
+  bool has_failed() const override { return !result_.fault.empty(); }
 
   double done() const override {
     if (is_over()) return 1.0;

@@ -14,9 +14,10 @@ class LostLightSearch {
  public:
   virtual ~LostLightSearch() = default;
 
-  // Whether it has its tries or its seconds, or the device has ended it.
+  // Whether it has its tries, or its seconds within climb(), or has failed.
   virtual bool is_over() const = 0;
-  virtual double done() const = 0;  // the part of its tries, or of its seconds if that is more; from 0 to 1
+  virtual bool has_failed() const = 0;  // the method has, or its device
+  virtual double done() const = 0;      // the part of its tries, or of its seconds if that is more; from 0 to 1
   // The next world, with a population of lights; ends early on `stop`.
   virtual void climb(const std::atomic<bool>& stop) = 0;
   virtual SearchResult result() const = 0;  // of what has been searched so far

@@ -1,6 +1,7 @@
 #include "stress/stress_run.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -96,25 +97,37 @@ class MethodRounds {
 
   // Calls work(i) for each method: for several at the same time, and first for those that took longest in the last
   // round, so that no thread waits long for the last one; then for those on a device, one after the other, since one
-  // that fails is closed before the next.
+  // that fails is closed before the next, and so for those of plug-ins, so that it is known which of them crashed. If
+  // some throw, this throws what the first method of them has thrown.
   template <class Work>
   void each(const Work& work) {
     std::vector<std::size_t> order(methods_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto on_device =
-        std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return !is_on_device(i); });
-    std::stable_sort(order.begin(), on_device, [&](std::size_t a, std::size_t b) { return last_ns_[a] > last_ns_[b]; });
-    each_in_order(pool_, static_cast<std::size_t>(on_device - order.begin()), [&](std::size_t place) {
-      const std::size_t i = order[place];
+    const auto first_elsewhere =
+        std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return !runs_elsewhere(i); });
+    std::stable_sort(order.begin(), first_elsewhere,
+                     [&](std::size_t a, std::size_t b) { return last_ns_[a] > last_ns_[b]; });
+    std::vector<std::exception_ptr> failures(methods_.size());
+    const auto try_work = [&](std::size_t i) {
       const double start = wall_ns();
-      work(i);
+      try {
+        work(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
       last_ns_[i] = wall_ns() - start;
-    });
-    std::for_each(on_device, order.end(), work);
+    };
+    each_in_order(pool_, static_cast<std::size_t>(first_elsewhere - order.begin()),
+                  [&](std::size_t place) { try_work(order[place]); });
+    std::for_each(first_elsewhere, order.end(), try_work);
+    for (const std::exception_ptr& failure : failures)
+      if (failure) std::rethrow_exception(failure);
   }
 
  private:
-  bool is_on_device(std::size_t i) const { return methods_[i].assigner->on_device; }
+  bool runs_elsewhere(std::size_t i) const {
+    return methods_[i].assigner->on_device || !methods_[i].assigner->plugin.empty();
+  }
 
   ThreadPool pool_;
   const std::vector<StressMethod>& methods_;
@@ -156,11 +169,12 @@ std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods,
       searches[i] = lost_light_search(methods[i], request);
   const auto is_over = [](const auto& search) { return search == nullptr || search->is_over(); };
   std::mutex telling;
-  std::vector<double> done(searches.size(), 0.0);
+  std::vector<double> done;
+  for (const auto& search : searches) done.push_back(search == nullptr ? 1.0 : 0.0);
   const auto climb = [&](std::size_t i) {
     if (stop || is_over(searches[i])) return;
     searches[i]->climb(stop);
-    if (methods[i].assigner->on_device && !searches[i]->result().fault.empty()) gpu::close_device();
+    if (methods[i].assigner->on_device && searches[i]->has_failed()) gpu::close_device();
     const std::lock_guard lock(telling);
     done[i] = searches[i]->done();
     on_tries(methods[i].label, std::accumulate(done.begin(), done.end(), 0.0));

@@ -70,7 +70,7 @@ struct SearchResult {
   double least_margin =
       0.0;  // of the padding: roundoffs by which the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;
-  std::string fault;  // why the device ended it before its time
+  std::string fault;  // why the method or its device ended it before its time
 };
 
 struct StressResult {
