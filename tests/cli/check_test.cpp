@@ -397,6 +397,24 @@ TEST(Check, lists_that_a_storage_cuts_off_are_told_when_they_are_written_and_whe
   EXPECT_EQ(whole.err.find("cut off"), std::string::npos) << whole.err;
 }
 
+TEST(Check, says_the_same_on_any_number_of_threads) {
+  const Folder folder;
+  const std::string dumps = (folder / "dumps").string();
+  ASSERT_EQ(tool("run -q " + source_file("scenes/street.glb") +
+                 " --assigner exact-fast --grid frustum --tiles 96 --slices 8 --dump-frames 2 --write-dump " + dumps +
+                 " --set 'storages=[{\"name\":\"fixed\",\"cap\":2}]'")
+                .code,
+            0);
+  const auto checked = [&](const std::string& threads) {
+    const std::string json = (folder / "check.json").string();
+    const Outcome done = tool("check --methods all " + threads + " --json " + json + " " + dumps);
+    EXPECT_EQ(done.code, 1) << done.err;
+    return done.out + done.err + file_text(json);
+  };
+  const std::string once = checked("--threads 1");
+  for (const std::string threads : {"", "--threads 2", "--threads 5"}) EXPECT_EQ(checked(threads), once) << threads;
+}
+
 TEST(Check, names_of_a_dump_reach_no_terminal_as_they_are) {
   Small small;
   small.dump["name"] = "frame\n  lists: right: no light is lost\n\x1b]0;title\x07";

@@ -98,10 +98,10 @@ TEST_F(ShardedRun, is_sized_with_a_warning_that_other_shards_can_need_more) {
   const std::string of_all = "other shards can need more: size the result that `clusterbench merge` makes of all\n";
   const Outcome one = tool("size " + path("4-1.json")), none = tool("size " + path("4-4.json"));
   EXPECT_EQ(one.code, 0) << one.err;
-  EXPECT_EQ(one.err, "clusterbench: warning: " + path("4-1.json") + ": is shard 1 of 4 of a run; " + of_all);
+  EXPECT_EQ(one.err, "clusterbench: warning: " + path("4-1.json") + " is shard 1 of 4 of a run; " + of_all);
   EXPECT_EQ(none.code, 1);
-  EXPECT_EQ(none.err, "clusterbench: warning: " + path("4-4.json") +
-                          ": is shard 4 of 4 of a run, one that no case is left for; " + of_all);
+  EXPECT_EQ(none.err,
+            "clusterbench: warning: " + path("4-4.json") + " is shard 4 of 4 of a run and has no cases; " + of_all);
 }
 
 TEST_F(ShardedRun, takes_the_cases_that_a_filter_selects) {

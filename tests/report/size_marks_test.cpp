@@ -251,6 +251,10 @@ TEST(SizeMarks, a_search_counts_for_each_view) {
                 "each in its own worst frame, 1.71 times the most seen; the worst: camera right at (1, 2, 3) m"),
       std::string::npos)
       << text;
+  FoundFrame refused = right;
+  refused.refusal = "the scene changed";
+  request.scope.found.push_back(refused);
+  EXPECT_EQ(marks_of(result, request), text) << "a search that was not made says nothing of the others";
   request.scope.found[1].evaluations = 4999;
   const std::string unequal = marks_of(result, request);
   EXPECT_NE(unequal.find(", by one of the searches of 2 cameras, 2 views together"), std::string::npos) << unequal;

@@ -10,6 +10,7 @@
 #include "cli/output/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/work_in_order.h"
 #include "dump/dump_template.h"
 #include "dump/judge.h"
 #include "report/page/page.h"
@@ -20,7 +21,7 @@ namespace {
 struct CheckFlags {
   std::vector<std::string> dumps;
   std::string json, page, engine, methods = "quick";
-  int most_lost = 10, threads = 1;
+  int most_lost = 10, threads = 0;  // 0: as many as there are processors
   bool allow_rounding = false, quiet = false;
 };
 
@@ -99,12 +100,13 @@ CheckInputs inputs_of(const CheckFlags& flags) {
 result::Check judge_all(const CheckFlags& flags, const CheckInputs& inputs, result::CheckPage& page,
                         std::ostream& out) {
   const dump::MethodChoice methods = dump::method_choice(flags.methods);
+  const int threads = flags.threads > 0 ? flags.threads : processors();
   std::size_t page_room = dump::k_most_page_entries;
   result::Check checked;
   checked.check_version = 1;
   for (const std::filesystem::path& path : inputs.dumps) {
     result::CheckPageFrame* page_frame = flags.page.empty() ? nullptr : &page.frames.emplace_back();
-    checked.frames.push_back(dump::judge(dump::read_dump(path), {methods, flags.threads, page_frame, &page_room}));
+    checked.frames.push_back(dump::judge(dump::read_dump(path), {methods, threads, page_frame, &page_room}));
     if (!flags.quiet)
       out << printable_lines(dump::check_text(checked.frames.back(), static_cast<std::size_t>(flags.most_lost)))
           << std::flush;
@@ -154,9 +156,8 @@ void add_check(Command& program, Action& action) {
                   "Methods of clusterbench on the same frame: quick (if they take a few seconds), all, none, or names "
                   "with commas")
       .shows_standard();
-  command.add_option("--threads", flags->threads, "Threads; results do not depend on it")
-      .range(1, 1024)
-      .shows_standard();
+  command.add_option("--threads", flags->threads, "Threads (default: all processors); results do not depend on them")
+      .range(1, 1024);
   command.add_flag("-q,--quiet", flags->quiet, "No text; the exit code is the verdict");
   command.when_named([flags, &action] { action = [flags] { return check(*flags); }; });
 }

@@ -151,8 +151,8 @@ ExitCode check_sizes(const SizeFlags& flags, const SizeCounts* counts, const res
 }
 
 std::string shard_warning(const std::string& file, const result::Shard& shard, bool is_empty) {
-  return "warning: " + file + ": is shard " + std::to_string(shard.index) + " of " + std::to_string(shard.count) +
-         " of a run" + (is_empty ? ", one that no case is left for" : "") +
+  return "warning: " + file + " is shard " + std::to_string(shard.index) + " of " + std::to_string(shard.count) +
+         " of a run" + (is_empty ? " and has no cases" : "") +
          "; other shards can need more: size the result that `clusterbench merge` makes of all";
 }
 
@@ -180,7 +180,8 @@ ExitCode size(SizeFlags flags) {
       print_message("note: " + flags.inputs.paths.front() +
                     " has times of several machines, which are not compared: of each grid the smallest structure "
                     "that loses no light, and no conclusion; --all has all");
-    if (result.shard) print_message(shard_warning(flags.inputs.paths.front(), *result.shard, result.cases.empty()));
+    if (result.shard && result.shard->count > 1)
+      print_message(shard_warning(flags.inputs.paths.front(), *result.shard, result.cases.empty()));
     result = report::without_times_of_machines(std::move(result));
   }
   for (const std::string& file : flags.found) {

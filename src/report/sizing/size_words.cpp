@@ -64,10 +64,10 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   const FoundFrame& found = structure.searches[buffer.found_by];
   const std::string tried = tried_text(found);
   const std::size_t cameras = structure.searched_cameras();
-  const bool is_equal = std::ranges::all_of(
-      structure.searches, [&](const FoundFrame& one) { return one.evaluations == found.evaluations; });
+  const bool is_alike = std::ranges::all_of(
+      structure.searches, [&](const FoundFrame& one) { return !one.refusal.empty() || tried_text(one) == tried; });
   const std::string of_cameras = cameras < 2 ? ""
-                                 : is_equal  ? " for each of " + std::to_string(cameras) + " cameras"
+                                 : is_alike  ? " for each of " + std::to_string(cameras) + " cameras"
                                              : ", by one of the searches of " + std::to_string(cameras) + " cameras";
   // A frame found for another measure is valid, but it is not the maximum for this buffer.
   std::string out = std::to_string(*buffer.found) +
