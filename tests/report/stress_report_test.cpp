@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <set>
+#include <thread>
 
 #include "config/config.h"
 #include "config/schema/documents.h"
@@ -126,6 +129,31 @@ TEST(Stress, that_is_stopped_within_its_searches_has_searched_all_methods_about_
     EXPECT_GT(search.tries, request.tries / 8) << search.method;
     EXPECT_LT(search.tries, request.tries / 2) << search.method;
   }
+}
+
+// Else it would not be known which of a plug-in's methods has crashed.
+TEST(Stress, calls_plug_ins_one_at_a_time) {
+  std::atomic<int> running{0}, most{0};
+  assign::AssignerDescriptor first = *assign::find_assigner("bounds");
+  first.name = "plugged.first";
+  first.plugin = "plugged";
+  first.make = [&, make = first.make](const assign::Params& params) {
+    most = std::max(most.load(), ++running);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    --running;
+    return make(params);
+  };
+  assign::AssignerDescriptor second = first;
+  second.name = "plugged.second";
+  const assign::AssignerRegistration one(std::move(first)), other(std::move(second));
+  StressRequest request;
+  request.tries = 500;
+  request.cases = Pattern("^H(1|31)$", "--cases");
+  request.methods = Pattern("^plugged", "--methods");
+  request.threads = 4;
+  const StressResult result = run_stress(request, {}, k_never);
+  EXPECT_GE(result.searches.size(), 2U);
+  EXPECT_EQ(most, 1);
 }
 
 TEST(Stress, is_written_as_its_schema_says) {
