@@ -97,6 +97,27 @@ TEST(CommandLine, no_option_takes_a_whole_number_that_its_type_does_not_hold) {
   EXPECT_GE(options, 7 * 4);
 }
 
+TEST(CommandLine, seeds_are_those_that_a_configuration_and_json_can_hold) {
+  int commands = 0;
+  for (const std::string command : k_commands) {
+    const std::vector<std::string> options = options_with("UINT", command);
+    if (std::ranges::find(options, "--seed") == options.end()) continue;
+    const Outcome refused = tool(command + " --seed=9007199254740992");
+    EXPECT_EQ(refused.code, 2) << command;
+    EXPECT_NE(refused.err.find("--seed: takes a whole number from 0 to 2^53 - 1, not '9007199254740992'"),
+              std::string::npos)
+        << refused.err;
+    ++commands;
+  }
+  EXPECT_EQ(commands, 5);
+
+  const Folder folder;
+  const std::string result = (folder / "stress.json").string();
+  ASSERT_EQ(tool("stress --cases '^H10$' --methods exact-fast --seed 9007199254740991 -q -o " + result).code, 0);
+  EXPECT_EQ(tool("validate " + result).code, 0);
+  EXPECT_EQ(Json::parse(std::ifstream(result))["seed"], 9007199254740991);
+}
+
 TEST(CommandLine, no_option_takes_a_blank_text) {
   for (const char* arguments : {"run x.glb --device ' '", "ratio x.json --methods ' '", "history add x h --commit '\t'",
                                 "run x.glb --filter '  '", "run x.glb -o ' '", "report ' '", "stress --cases ' '",

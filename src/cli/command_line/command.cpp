@@ -108,6 +108,11 @@ Option& Option::at_least(std::uint64_t least) {
   return *this;
 }
 
+Option& Option::seed() {
+  limit(*option_, std::uint64_t{0}, (std::uint64_t{1} << 53) - 1, "from 0 to 2^53 - 1");
+  return shows_standard();
+}
+
 Option& Option::positive() {
   limit(*option_, std::numeric_limits<double>::min(), k_largest<double>, "above 0");
   return *this;

@@ -24,6 +24,7 @@ class Option {
   Option& range(int least, int most);
   Option& range(double least, double most);
   Option& at_least(std::uint64_t least);
+  Option& seed();  // 0 to 2^53 - 1, as in configurations: any reader of JSON keeps it; shows the value before parsing
   Option& positive();
   Option& positive_to(double most);
   Option& non_negative();

@@ -125,7 +125,7 @@ void add_plugin(Command& program, Action& action) {
   command.add_option("--seconds", flags->request.seconds, "For each of the tests that draw until time is over")
       .range(0.0, 1e6)
       .shows_standard();
-  command.add_option("--seed", flags->request.seed, "Seed of all that is drawn").shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of all that is drawn").seed();
   command.add_option("--timeout", flags->request.timeout_s, "Longest time for a test beside that, in seconds")
       .range(0.1, 1e6)
       .shows_standard();

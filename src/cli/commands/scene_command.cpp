@@ -156,7 +156,7 @@ void add_generate(Command& parent, Action& action) {
   auto flags = std::make_shared<GenerateFlags>();
   Command command = parent.add_command("generate", "Write one of the tool's own scenes (names: clusterbench list)");
   command.add_option("NAME", flags->name, "Scene name").required();
-  command.add_option("--seed", flags->seed, "The same seed gives the same bytes everywhere").shows_standard();
+  command.add_option("--seed", flags->seed, "The same seed gives the same bytes everywhere").seed();
   command.add_option("--lights", flags->lights, "Number of lights; 0: the scene's own")
       .shows_standard()
       .range(0, 10'000'000);

@@ -203,7 +203,7 @@ void add_stress(Command& program, Action& action) {
                   "End the search of a method, or that of random settings, after so many; 0 = by their number")
       .non_negative()
       .shows_standard();
-  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of everything random").seed();
   flags->request.threads = processors();
   command
       .add_option("--threads", flags->request.threads,

@@ -55,7 +55,7 @@ void add_effort_options(Command& command, SearchFlags& flags, const Option* only
                       "End the search after so many, too; the result then depends on the machine; 0 = never")
           .non_negative()
           .shows_standard(),
-      command.add_option("--seed", flags.request.seed, "Seed of everything random").shows_standard()};
+      command.add_option("--seed", flags.request.seed, "Seed of everything random").seed()};
   if (only_with != nullptr)
     for (Option& option : options) option.needs(*only_with);
 }
