@@ -84,6 +84,7 @@ std::span<const Preset> presets() {
 }
 
 const Preset* find_preset(const std::string& name) {
+  if (name.empty()) return nullptr;  // asked of every case: reading all presets takes milliseconds
   const auto found = std::ranges::find_if(presets(), [&](const Preset& preset) { return preset.name == name; });
   return found == presets().end() ? nullptr : &*found;
 }

@@ -226,6 +226,8 @@ std::string approximated_text(const config::Preset& preset, const std::vector<Ca
 }  // namespace
 
 std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const std::vector<result::Skipped>& skipped) {
+  const auto is_of_any = [](const auto& entry) { return entry.preset.has_value(); };
+  if (std::ranges::none_of(cases, is_of_any) && std::ranges::none_of(skipped, is_of_any)) return {};
   std::vector<result::Preset> facts;
   for (const config::Preset& preset : config::presets()) {
     const auto is_of = [&](const auto& entry) { return entry.preset == preset.name; };
