@@ -14,7 +14,30 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json random_scene(SplitMix64& random) {
+// A name that exporters allow, and that JSON, tables and terminals must not take for something else.
+std::string odd_name(SplitMix64& random) {
+  const char* names[] = {"a\"b",   "back\\slash", "tab\tnl\n", "\x01\x1f", "\x7f",     "名\"\\\n",
+                         "x\":\"", "{\"a\":1}",   "]}",        "null",     "*",        "(a|b)+$",
+                         "a/b, c", "%s %n",       "",          "  ",       "/frustum", "-q"};
+  return random.below(20) == 0 ? std::string(300, 'x') : names[random.below(std::size(names))];
+}
+
+// methods.gltf with other names of its scene and its camera.
+Json oddly_named_scene(SplitMix64& random, const Folder& folder) {
+  Json file = Json::parse(file_text(source_file("scenes/methods.gltf")));
+  const std::string scene_name = odd_name(random);
+  file["scenes"][0]["name"] = scene_name;
+  file["cameras"][0]["name"] = odd_name(random);
+  for (Json& node : file["nodes"])
+    if (node.contains("camera")) node["name"] = odd_name(random);
+  const std::string name = "odd " + std::to_string(random.below(1000)) + "\"ü.gltf";
+  Json out{{"path", folder.write(name, file.dump()).string()}, {"frames", 1 + random.below(3)}, {"camera", "*"}};
+  if (random.below(2) == 0) out["scene"] = scene_name.empty() ? Json(0) : Json(scene_name);
+  return out;
+}
+
+Json random_scene(SplitMix64& random, const Folder& folder) {
+  if (random.below(3) == 0) return oddly_named_scene(random, folder);
   const char* files[] = {"mirror.glb", "slope.glb", "methods.gltf", "methods-boxes.gltf", "steps.glb"};
   const int frames = 1 + static_cast<int>(random.below(4));
   if (random.below(2) == 0)
@@ -60,9 +83,10 @@ Json some_of(SplitMix64& random, std::vector<std::string> words, std::uint64_t m
   return out;
 }
 
-Json random_sweep(SplitMix64& random) {
+Json random_sweep(SplitMix64& random, const Folder& folder) {
   Json out{{"name", "sweep"}, {"seed", random.below(1000)}, {"viewport", {320, 180}}, {"timing", {{"measure", false}}}};
-  for (std::uint64_t left = 1 + random.below(3); left > 0; --left) out["scenes"].push_back(random_scene(random));
+  for (std::uint64_t left = 1 + random.below(3); left > 0; --left)
+    out["scenes"].push_back(random_scene(random, folder));
   const std::uint64_t last = random.below(k_grids);
   for (std::uint64_t number = 0; number <= last; ++number)
     if (number == last || random.below(2) == 0) out["grids"].push_back(random_grid(number, random));
@@ -87,7 +111,7 @@ class RandomSweep : public ::testing::TestWithParam<int> {};
 TEST_P(RandomSweep, in_shards_is_the_undivided_run) {
   SplitMix64 random(7100 + static_cast<std::uint64_t>(GetParam()));
   const Folder folder;
-  const Json sweep = random_sweep(random);
+  const Json sweep = random_sweep(random, folder);
   const auto path = [&](const std::string& name) { return (folder / name).string(); };
   const auto run_on = [&](std::uint64_t threads, const std::string& more) {
     return tool("run " + path("sweep.json") + " -q --threads " + std::to_string(threads) + " " + more);
@@ -125,7 +149,7 @@ TEST_P(RandomSweep, in_shards_is_the_undivided_run) {
 TEST_P(RandomSweep, is_sized_alike_on_any_number_of_threads) {
   SplitMix64 random(8200 + static_cast<std::uint64_t>(GetParam()));
   const Folder folder;
-  Json sweep = random_sweep(random);
+  Json sweep = random_sweep(random, folder);
   if (random.below(2) == 0) {
     sweep["scenes"] = {{{"path", source_file("scenes/street.glb")}, {"frames", 12}}};
     sweep["grids"] = {{{"tiles", {{"pixels", {64, 64}}}}, {"slices", {{"count", 2 + random.below(16)}}}}};
