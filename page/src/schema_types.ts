@@ -27,6 +27,7 @@ export type Machine = {
     end: number; // Just after; a run adds its own threads
   }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
   os: string; // System, kernel and architecture
+  host?: string; // Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where nothing is timed or counted in instructions, and where the machine does not tell its name
 };
 
 // [x, y, z]
@@ -197,7 +198,6 @@ export type Result = {
     count: number; // Of all shards of the run [shards, over the run]
     sweep: string; // SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, cases
     filter?: string; // That selected the run's cases (--filter); absent without one
-    host?: string; // Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where nothing is timed, and where the machine does not tell its name
     cases: number; // Of this result, when it was written: `merge` counts them [cases, over the result]
     baseline?: {
       file: string; // As the shard opened it: relative to the folder that it ran in
@@ -209,7 +209,6 @@ export type Result = {
     name: string; // Of `machine` of its cases: machine 1, machine 2 ...
     machine: Machine; // As `machine` of a result
     simd_target: string; // As `tool.simd_target`
-    host?: string; // As `shard.host`; absent where it is not known
   }>; // Of a merged result the machines whose times, device's times or instructions it has; those of two are never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one
   device?: {
     name: string; // Its name, from its driver

@@ -61,6 +61,9 @@ struct Machine {
   FIELD(std::optional<Load>, load, "Programs that run or wait to run. Absent where nothing is timed", "programs",
         "one minute, the machine");
   FIELD(std::string, os, "System, kernel and architecture");
+  FIELD(std::optional<std::string>, host,
+        "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
+        "nothing is timed or counted in instructions, and where the machine does not tell its name");
   END_RECORD;
 };
 
@@ -86,7 +89,6 @@ struct MeasuredMachine {
   FIELD(std::string, name, "Of `machine` of its cases: machine 1, machine 2 ...");
   FIELD(Machine, machine, "As `machine` of a result");
   FIELD(std::string, simd_target, "As `tool.simd_target`");
-  FIELD(std::optional<std::string>, host, "As `shard.host`; absent where it is not known");
   END_RECORD;
 };
 
@@ -105,9 +107,6 @@ struct Shard {
         "SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, "
         "cases");
   FIELD(std::optional<std::string>, filter, "That selected the run's cases (--filter); absent without one");
-  FIELD(std::optional<std::string>, host,
-        "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
-        "nothing is timed, and where the machine does not tell its name");
   FIELD(std::uint64_t, cases, "Of this result, when it was written: `merge` counts them", "cases", "the result");
   FIELD(std::optional<ShardBaseline>, baseline,
         "The result that `merge` holds all cases against (--baseline, limits.baseline); absent without one");

@@ -86,7 +86,7 @@ TEST(Run, resuming_without_an_interrupted_run_says_that_it_begins_anew) {
   const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
   const Outcome done = tool("run -q --no-timing --resume " + config + " -o " + out);
   EXPECT_EQ(done.code, 0);
-  EXPECT_EQ(done.err, "clusterbench: note: nothing that an interrupted run has measured is in " + out +
+  EXPECT_EQ(done.err, "clusterbench: note: no interrupted run has left finished cases in " + out +
                           ".partial, so --resume begins anew\n");
 }
 

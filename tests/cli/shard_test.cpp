@@ -71,7 +71,7 @@ TEST_F(ShardedRun, has_each_case_once_and_says_which_part_it_is) {
     const Json shard = read(name);
     EXPECT_EQ(shard["shard"]["index"], i);
     EXPECT_EQ(shard["shard"]["count"], 3);
-    EXPECT_FALSE(shard["shard"].contains("host"));  // nothing is timed
+    EXPECT_FALSE(shard["machine"].contains("host"));  // nothing is timed
     EXPECT_FALSE(shard.contains("conclusions"));
     EXPECT_FALSE(shard["cases"].empty());
     for (const Json& one : shard["cases"]) ids.push_back(one["id"]);
@@ -344,7 +344,7 @@ TEST_F(ShardedRun, of_times_says_its_host_and_is_merged_on_one_machine_as_a_whol
     ASSERT_EQ(tool("run " + sweep + " -q --shard " + shard + "/2 -o " + file).code, 0);
     files += " " + file;
   }
-  EXPECT_EQ(read("1.json")["shard"]["host"].get<std::string>().size(), 12u);
+  EXPECT_EQ(read("1.json")["machine"]["host"].get<std::string>().size(), 12u);
   ASSERT_EQ(tool("merge" + files + " -o " + path("merged.json")).code, 0);
   const Json merged = read("merged.json");
   EXPECT_FALSE(merged.contains("machines"));

@@ -180,13 +180,38 @@ TEST(Merge, a_merged_result_of_two_machines_is_merged_on_with_those_of_a_third) 
 }
 
 TEST(Merge, two_hosts_of_one_kind_are_two_machines) {
-  const auto part = [](const std::string& file, const std::string& id, std::uint64_t index, const std::string& host) {
+  const auto part = [](const std::string& file, const std::string& id, const std::string& host) {
     NamedPart out = shard(file, id);
-    out.result.shard = {index, 2, std::string(64, '0'), {}, host, out.result.cases.size(), {}};
+    out.result.machine.host = host;
     return out;
   };
-  EXPECT_TRUE(merged({part("a", "slow", 1, "aa"), part("b", "fast", 2, "bb")}).machines);
-  EXPECT_FALSE(merged({part("a", "slow", 1, "aa"), part("b", "fast", 2, "aa")}).machines);
+  const auto numbered = [](NamedPart out, std::uint64_t index) {
+    out.result.shard = {index, 2, std::string(64, '0'), {}, out.result.cases.size(), {}};
+    return out;
+  };
+  const NamedPart slow = part("a", "slow", "aa"), near = part("b", "fast", "aa"), far = part("b", "fast", "bb");
+  for (const auto& [first, second] : {std::pair(slow, far), std::pair(numbered(slow, 1), numbered(far, 2))}) {
+    const result::Result all = merged({first, second});
+    ASSERT_TRUE(all.machines);
+    EXPECT_EQ((*all.machines)[1].machine.host, "bb");
+    EXPECT_FALSE(all.machine.host);
+    ASSERT_EQ(all.conclusions->size(), 2u);
+    for (const result::Conclusion& one : *all.conclusions)
+      EXPECT_EQ(one.text.find("this machine"), std::string::npos) << one.text;
+  }
+  for (const auto& [first, second] : {std::pair(slow, near), std::pair(numbered(slow, 1), numbered(near, 2))}) {
+    const result::Result all = merged({first, second});
+    EXPECT_FALSE(all.machines);
+    EXPECT_EQ(all.machine.host, "aa");
+  }
+}
+
+TEST(Merge, a_merged_result_of_one_host_is_merged_on_with_others_of_it) {
+  NamedPart slow = shard("a.json", "slow"), fast = shard("b.json", "fast"), third = shard("c.json", "fast");
+  third.result.cases[0].id = "third";
+  third.result.cases[0].name = "hall/look/grid/third";
+  for (NamedPart* part : {&slow, &fast, &third}) part->result.machine.host = "aa";
+  EXPECT_FALSE(merged({{"both.json", merged({slow, fast})}, third}).machines);
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ inline run::Result result_by_hand() {
   run::Result result;
   result.config_name = "by hand";
   result.tool = {"1.2.3", "abc", "g++ 12", "-O3", "Release", "scalar", {{"glm", "0.9.9"}}};
-  result.machine = {"a processor", "Linux", 2, 1u << 30, "6", "85", "7", {{"l1d", 32768}, {"l2", 1 << 20}}, {}, {}};
+  result.machine = {"a processor", "Linux", 2, 1u << 30, "6", "85", "7", {{"l1d", 32768}, {"l2", 1 << 20}}, {}, {}, ""};
   result.config = {{"allocation", {{"margin", 2.0}, {"warn_at", 0.9}}}};
   run::SceneResult scene;
   scene.name = "hall";

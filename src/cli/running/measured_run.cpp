@@ -139,6 +139,7 @@ class MeasuredRun {
     }
     if (flags_.part.can_go_on) set_timing_facts(flags_.part.message, fresh);
     if (!fresh.date.empty()) fresh.command = command_line();
+    fresh.machine.host = host_digest(flags_, config_);
     result::Result result = report::record_of(fresh, journal.earlier_cases(), broken, config_.threads);
     if (!flags_.baseline.binary.empty() && !add_baseline(journal, progress, stop, result)) return journal.interrupted();
     return concluded(journal, stop, result);

@@ -45,7 +45,8 @@ Json run_identity(const RunFlags& flags, const config::Config& config, const run
   return header;
 }
 
-std::string host_digest() {
+std::string host_digest(const RunFlags& flags, const config::Config& config) {
+  if (!config.timing.measure && flags.count.empty()) return "";
   constexpr std::size_t k_digits = 12;
   const std::string name = os::host_name();
   return name.empty() ? "" : sha256_hex(name).substr(0, k_digits);
@@ -58,7 +59,7 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   Json header = run_identity(flags, config, plan);
   if (plan.shard) header["shard"] = {plan.shard->index, plan.shard->count};
   if (config.timing.measure || !flags.count.empty())
-    header["machine"] = {{"cpu", run::machine_facts().cpu}, {"host", host_digest()}};
+    header["machine"] = {{"cpu", run::machine_facts().cpu}, {"host", host_digest(flags, config)}};
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;
@@ -123,7 +124,7 @@ RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, cons
     return;
   }
   if (flags.resume && journal_->is_empty())
-    print_message("note: nothing that an interrupted run has measured is in " + journal_->partial_path().string() +
+    print_message("note: no interrupted run has left finished cases in " + journal_->partial_path().string() +
                   ", so --resume begins anew");
   if (!journal_->set_aside().empty())
     print_message(journal_->partial_path().string() +

@@ -18,8 +18,9 @@ namespace clusterbench::cli {
 // keys that change no result, and the contents of scenes and plug-ins. Without the device.
 nlohmann::ordered_json run_identity(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
 
-// Distinguishes machines whose times are not mixed, without the host's name; "" if the system does not tell it.
-std::string host_digest();
+// Distinguishes machines whose times or instructions are not mixed, without the host's name; "" if the system does not
+// tell it, and where nothing is timed or counted.
+std::string host_digest(const RunFlags& flags, const config::Config& config);
 
 // With --resume, the ids of the cases that an interrupted run of the same plan has finished; else none. Writes no file.
 // Throws Error if the output is no file, and for a journal of another run.

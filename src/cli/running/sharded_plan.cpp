@@ -82,7 +82,6 @@ run::Plan sharded_plan(const RunFlags& flags, const config::Config& config, run:
                                 choice.count,
                                 sweep_digest(flags, config, plan, baseline),
                                 flags.filter,
-                                config.timing.measure || !flags.count.empty() ? host_digest() : "",
                                 baseline.empty() ? "" : config.limits.baseline.string(),
                                 baseline};
   refuse_other_shard(flags.output, shard);

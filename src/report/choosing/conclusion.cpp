@@ -126,11 +126,12 @@ Choice choose_of(const SceneView& view, std::uint64_t seed) {
 std::string whole_cost_text(const WeighedCase& take) {
   if (!take.is_modelled && !take.is_timed())
     return text("; %.0f bytes, and no times or samples to rank by", take.bytes());
-  if (!take.is_modelled) return "; " + ns_text(take.ns()) + " a frame to make on this machine";
+  const std::string here = take.result_case->machine ? "" : " on this machine";  // else the sentence begins with it
+  if (!take.is_modelled) return "; " + ns_text(take.ns()) + " a frame to make" + here;
   const std::string model = "upload, reading and shading by the model (configuration key cost)";
   if (!take.is_timed()) return "; " + ns_text(take.ns()) + " a frame of " + model + ", and nothing was timed";
-  return "; a frame costs " + ns_text(take.ns()) + ": " + ns_text(*take.cost.assign_ns) +
-         " to make the lists on this machine, " + ns_text(take.cost.gpu_ns()) + " of " + model;
+  return "; a frame costs " + ns_text(take.ns()) + ": " + ns_text(*take.cost.assign_ns) + " to make the lists" + here +
+         ", " + ns_text(take.cost.gpu_ns()) + " of " + model;
 }
 
 // Around the reported ratio: that of rounds side by side differs slightly from that of the costs, whose times are

@@ -15,9 +15,10 @@ std::string size_text(std::uint64_t bytes) {
 
 }  // namespace
 
-result::Machine without_state(result::Machine machine) {
+result::Machine machine_kind(result::Machine machine) {
   machine.clock_mhz.reset();
   machine.load.reset();
+  machine.host.reset();
   return machine;
 }
 

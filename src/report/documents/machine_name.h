@@ -7,8 +7,8 @@
 
 namespace clusterbench::report {
 
-// The machine without its state: clock and load.
-result::Machine without_state(result::Machine machine);
+// The kind of machine: without its state (clock and load) and its host.
+result::Machine machine_kind(result::Machine machine);
 
 // "AMD EPYC (family 26, model 2, stepping 1; L1d 48 KiB, L1i 32 KiB, L2 1 MiB, L3 32 MiB)" for a result's `machine`;
 // shorter for an older result without some of that.

@@ -167,7 +167,7 @@ result::Result merged(std::vector<NamedPart> parts) {
   out.schema_version = first.schema_version;
   out.name = merged_name(parts);
   out.tool = first.tool;
-  out.machine = without_state(first.machine);
+  out.machine = machine_kind(first.machine);
   out.device = common_device(parts);
   out.config = is_sweep ? first.config : merged_config(parts);
   MachinesOfParts machines(parts);

@@ -19,8 +19,9 @@ MeasuredMachine machine_of(const result::Case& result_case, const result::Result
         machine.name.clear();
         return machine;
       }
-  return {"", without_state(part.machine), part.tool.simd_target,
-          part.shard ? part.shard->host : std::optional<std::string>()};
+  MeasuredMachine out{"", machine_kind(part.machine), part.tool.simd_target};
+  out.machine.host = part.machine.host;
+  return out;
 }
 
 bool is_one(const MeasuredMachine& known, MeasuredMachine machine) {
@@ -56,7 +57,8 @@ void MachinesOfParts::name_in(result::Case& result_case, const result::Result& p
 
 void MachinesOfParts::add_to(result::Result& merged) const {
   if (!machines_.empty()) {
-    merged.machine = machines_.front().machine;
+    const result::Machine& first = machines_.front().machine;
+    merged.machine = machines_.size() == 1 ? first : machine_kind(first);
     merged.tool.simd_target = machines_.front().simd_target;
   }
   if (machines_.size() > 1) merged.machines = machines_;

@@ -60,6 +60,13 @@ Json program_of(const result::Result& result) {
   return tool;
 }
 
+// By name.
+Json contents_of_scenes(const result::Result& result) {
+  Json out = Json::object();
+  for (const result::Scene& scene : result.scenes) out[scene.name] = scene.sha256;
+  return out;
+}
+
 std::string digest_of_baseline(const result::Result& result) {
   return result.shard->baseline ? result.shard->baseline->sha256 : "";
 }
@@ -83,8 +90,9 @@ void check_of_one_run(const NamedPart& first, const NamedPart& next) {
     refuse(next, "/shard", "is " + shard_text(*other.shard) + ", and " + first.file + " is " + shard_text(*one.shard));
   check_same(first, next, "/shard/filter", one.shard->filter.value_or(""), other.shard->filter.value_or(""));
   check_same(first, next, "/shard/baseline", digest_of_baseline(one), digest_of_baseline(other));
+  check_same(first, next, "/scenes", contents_of_scenes(one), contents_of_scenes(other));
   if (one.shard->sweep == other.shard->sweep) return;
-  refuse(next, "/shard/sweep", "is of another run than " + first.file + ": scenes, plug-ins or cases differ");
+  refuse(next, "/shard/sweep", "is of another run than " + first.file + ": its plug-ins or cases differ");
 }
 
 std::vector<std::string> missing_numbers(const std::vector<NamedPart>& parts, std::size_t most) {

@@ -172,9 +172,9 @@ bool is_bounded(const std::vector<NamedStructure>& structures) {
 
 std::string size_table(const std::vector<NamedStructure>& structures, const std::string& remark,
                        const AllocationRules& rules) {
+  if (structures.empty()) return "The result has no cases.\n";
   std::string out;
   for (const NamedStructure& named : structures) out += structure_text(named.structure, rules) + "\n";
-  if (structures.empty()) out += "The result has no cases.\n\n";
   const bool has_views =
       std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.views.empty(); });
   const bool has_finds =

@@ -26,7 +26,6 @@ struct PlannedShard {
   std::uint64_t index = 1, count = 1;  // from 1
   std::string sweep;                   // a digest of all that its shards have in common
   std::string filter;                  // that selected its cases; "": none did
-  std::string host;                    // a digest of the machine's name
   std::string baseline_file = {};      // as this process opens it; "": none
   std::string baseline_sha256 = {};
 };

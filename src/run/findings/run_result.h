@@ -61,6 +61,8 @@ struct MachineFacts {
   // The clock while something was timed.
   std::optional<os::Clock> clock;
   std::optional<LoadFacts> load;
+  // Start of the SHA-256 of its name; "" where nothing depends on the machine.
+  std::string host;
 };
 MachineFacts machine_facts();
 

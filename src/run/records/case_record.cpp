@@ -180,11 +180,12 @@ result::Machine record_of(const MachineFacts& machine) {
   }
   if (machine.load) out.load = {machine.load->begin, machine.load->end};
   out.os = machine.os;
+  out.host = known(machine.host);
   return out;
 }
 
 result::Shard record_of(const PlannedShard& shard) {
-  result::Shard out{shard.index, shard.count, shard.sweep, known(shard.filter), known(shard.host), 0, {}};
+  result::Shard out{shard.index, shard.count, shard.sweep, known(shard.filter), 0, {}};
   if (!shard.baseline_file.empty()) out.baseline = {shard.baseline_file, shard.baseline_sha256};
   return out;
 }
