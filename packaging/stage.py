@@ -47,11 +47,16 @@ their versions. (The Debian package uses the system's libraries, which are updat
 WINDOWS_NEEDS = "It needs 64-bit Windows 10, version 1903, or later, and nothing else. docs/systems.md says what is not in it."
 
 
+def is_script(path):
+    with open(path, "rb") as file:
+        return file.read(2) == b"#!"
+
+
 def settle(folder, seconds):
     """The same commit gives the same bytes: modes do not depend on the umask, nor times on the clock."""
     for path in [folder, *folder.rglob("*")]:
         if not path.is_symlink():
-            runs = path.is_dir() or path.parent.name == "bin"
+            runs = path.is_dir() or path.parent.name == "bin" or is_script(path)
             path.chmod(0o755 if runs else 0o644)
         os.utime(path, (seconds, seconds), follow_symlinks=False)
 
