@@ -8,12 +8,14 @@
 #include "core/text.h"
 #include "os/environment.h"
 #include "os/standard_streams.h"
+#include "os/stop_signals.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
   clusterbench::os::take_arguments(argc, argv);
   clusterbench::os::keep_standard_streams();
   clusterbench::os::report_size_limits_as_errors();
+  clusterbench::os::end_on_signals();
   try {
     const int code = clusterbench::cli::run_command_line(argc, argv);
     clusterbench::cli::check_standard_output();

@@ -1,5 +1,5 @@
 #pragma once
-// Stopping on SIGINT, SIGTERM and SIGHUP.
+// Stopping on SIGINT, SIGTERM and SIGHUP. A SIGHUP that is ignored, as under `nohup`, stays ignored.
 
 #include <atomic>
 
@@ -7,8 +7,10 @@
 
 namespace clusterbench::os {
 
-// Becomes true at the first signal; the second ends the program at once. A SIGHUP that is ignored, as under `nohup`,
-// stays ignored.
+// Until stop_on_signals() is called, a signal ends the program with a message and its exit code.
+void end_on_signals();
+
+// Becomes true at the first signal; the second ends the program at once.
 const std::atomic<bool>& stop_on_signals();
 
 // From here on only signals of this process count: those that a terminal sends to a whole group of processes do not.

@@ -118,6 +118,58 @@ TEST(CommandLine, seeds_are_those_that_a_configuration_and_json_can_hold) {
   EXPECT_EQ(Json::parse(std::ifstream(result))["seed"], 9007199254740991);
 }
 
+TEST(CommandLine, no_option_takes_another_option_as_its_value) {
+  for (const char* arguments :
+       {"stress --cases --methods exact-fast", "run x.glb --filter --quiet", "size x.json --engine --filter=aabb"}) {
+    const Outcome refused = tool(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_NE(refused.err.find(": takes a value, and --"), std::string::npos) << arguments << ": " << refused.err;
+  }
+  EXPECT_NE(tool("validate -- --quiet").err.find("--quiet"), std::string::npos);  // a file
+}
+
+// The command waits for its configuration, which comes through a pipe that the shell opens when the program reads.
+TEST(CommandLine, a_signal_before_the_work_ends_the_command_with_a_message_and_its_exit_code) {
+  for (const auto& [name, code] : {std::pair("INT", 130), std::pair("TERM", 75), std::pair("HUP", 75)}) {
+    const Folder folder;
+    const std::string pipe = (folder / "pipe.json").string(), err = (folder / "err").string();
+    const std::string script = "mkfifo " + pipe + "; " + program() + " run " + pipe + " 2>" + err + " & exec 3>" +
+                               pipe + "; kill -" + name + " $!; wait $!";
+    const int status = std::system(("timeout 60 sh -c '" + script + "'").c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), code) << name;
+    EXPECT_EQ(file_text(err), "clusterbench: interrupted\n") << name;
+  }
+}
+
+// Each would take minutes, and is interrupted once it has said so.
+TEST(CommandLine, an_interrupted_command_says_what_it_has_written) {
+  const Folder folder;
+  const std::string scene = " " + source_file("scenes/open-world.glb") + " ", out = (folder / "out.json").string(),
+                    path = (folder / "path.gltf").string(), err = (folder / "err").string();
+  const struct {
+    std::string command, begun, said;
+  } runs[] = {
+      {"size" + scene + "--set scenes.*.frames=5000 --threads 1", "takes about",
+       "clusterbench: interrupted; no sizes, since some frames were not counted or tried\n"},
+      {"recommend" + scene + "--no-timing --set scenes.*.frames=600 -o " + out, "measures at most",
+       "clusterbench: interrupted; " + out + " not written\n"},
+      {"worst-case" + scene + "--tiles 64 --slices 16 --assigner aabb-fast --evaluations 10000000 -o " + out +
+           " --path " + path,
+       "takes about",
+       "clusterbench: interrupted; all output is of the frames that were tried by then; " + out + ", " + path +
+           " written\n"},
+  };
+  for (const auto& [command, begun, said] : runs) {
+    const std::string script = program() + " " + command + " >/dev/null 2>" + err + " & until grep -q \"" + begun +
+                               "\" " + err + "; do sleep 0.05; done; sleep 0.5; kill -TERM $!; wait $!";
+    const int status = std::system(("timeout 100 sh -c '" + script + "'").c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 75) << command;
+    EXPECT_TRUE(file_text(err).ends_with(said)) << file_text(err);
+  }
+}
+
 TEST(CommandLine, no_option_takes_a_blank_text) {
   for (const char* arguments : {"run x.glb --device ' '", "ratio x.json --methods ' '", "history add x h --commit '\t'",
                                 "run x.glb --filter '  '", "run x.glb -o ' '", "report ' '", "stress --cases ' '",

@@ -51,6 +51,17 @@ CLI::Option* with_text(CLI::Option* option) {
   return option->check(check);
 }
 
+// Rejects another option of the command as a value, which is behind an option whose value was forgotten. No argument:
+// that may be a file of any name.
+CLI::Option* with_own_text(const CLI::App& command, CLI::Option* option) {
+  const auto check = [&command](const std::string& word) -> std::string {
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_option = name.starts_with("--") && command.get_option_no_throw(name) != nullptr;
+    return is_option ? "takes a value, and " + name + " is an option" : "";
+  };
+  return option->get_positional() ? with_text(option) : with_text(option)->check(check);
+}
+
 // The range of the type, if no narrower range is given.
 template <class Number>
 CLI::Option* with_number(CLI::Option* option) {
@@ -161,11 +172,11 @@ Command Command::add_command(const std::string& name, const std::string& summary
 }
 
 Option Command::add_option(const std::string& names, std::string& value, const std::string& summary) {
-  return Option(with_text(app_->add_option(names, value, summary)));
+  return Option(with_own_text(*app_, app_->add_option(names, value, summary)));
 }
 
 Option Command::add_option(const std::string& names, std::vector<std::string>& values, const std::string& summary) {
-  return Option(with_text(app_->add_option(names, values, summary)));
+  return Option(with_own_text(*app_, app_->add_option(names, values, summary)));
 }
 
 Option Command::add_option(const std::string& names, int& value, const std::string& summary) {
@@ -250,9 +261,11 @@ bool names_unknown_command(const CLI::App& program) {
   return !words.empty() && !words.front().starts_with('-') && !command_names(named_command(program)).empty();
 }
 
-// The parser reports missing parts of a line, but for an unknown word only that it was not expected.
+// The parser reports wrong values and missing parts of a line, but for an unknown word only that it was not expected.
 [[noreturn]] void refuse(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = named_command(program);
+  if (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr)
+    throw Error("", path_of(command), error.what() + help_of(command));
   for (const std::string& word : program.remaining(true))
     if (word != "--") throw Error("", path_of(command), complaint(command, word));
   if (const std::vector<std::string> commands = command_names(command); !commands.empty())

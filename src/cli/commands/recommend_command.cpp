@@ -206,12 +206,13 @@ std::string budget_text(const run::Plan& plan, const search::View& view, const s
 }
 
 // Prints the answers before the stop, and the state of the interrupted search.
-ExitCode print_partial_answers(const config::Config& config, const report::Question& question,
-                               const std::vector<result::Answer>& answers, const search::View& view,
-                               const search::Found& found) {
+ExitCode print_partial_answers(const RecommendFlags& flags, const config::Config& config,
+                               const report::Question& question, const std::vector<result::Answer>& answers,
+                               const search::View& view, const search::Found& found) {
   if (!answers.empty())
     std::cerr << printable_lines(report::recommendation_text(report::recommendation_of(config, question, answers)));
   std::cerr << printable_lines(report::unfinished_text(view, found, question)) << std::flush;
+  print_message("interrupted" + files_text({flags.output, flags.written}, "not written"));
   return os::stopped_exit_code();
 }
 
@@ -277,7 +278,7 @@ std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Co
     if (!flags.quiet) print_message(budget_text(plan, view, request));
     const search::Found found = search::search_view(config, plan, view, request, launcher, watch, searches.costs[i]);
     progress.clear();
-    if (stop) return print_partial_answers(config, question, answers, view, found);
+    if (stop) return print_partial_answers(flags, config, question, answers, view, found);
     answers.push_back(report::answer_of(config, plan, view, found, question));
   }
   return std::nullopt;

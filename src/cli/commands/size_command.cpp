@@ -156,6 +156,11 @@ std::string shard_warning(const std::string& file, const result::Shard& shard, b
          "; other shards can need more: size the result that `clusterbench merge` makes of all";
 }
 
+ExitCode interrupted() {
+  print_message("interrupted; no sizes, since some frames were not counted or tried");
+  return os::stopped_exit_code();
+}
+
 ExitCode size(SizeFlags flags) {
   if (!flags.engine.empty()) choose_engine(flags);
   report::SizeRequest request = flags.request;
@@ -165,12 +170,12 @@ ExitCode size(SizeFlags flags) {
   result::Result result;
   if (!is_result(flags.inputs)) {
     std::optional<SizePlan> plan = plan_for_size(flags.inputs, request.filter, request.all, flags.engine);
-    if (!plan) return os::stopped_exit_code();
+    if (!plan) return interrupted();
     if (!flags.quiet)
       print_planned_counting(*plan,
                              flags.worst_case ? planned_search_text(*plan, request, flags.search) : std::string());
     counts = counted_for_size(std::move(*plan), flags.quiet);
-    if (!counts) return os::stopped_exit_code();
+    if (!counts) return interrupted();
     result = counts->result;
     request.scope.grown = counts->grown;
   } else {
@@ -191,12 +196,12 @@ ExitCode size(SizeFlags flags) {
   }
   if (flags.worst_case) {
     const auto found = search_sized(*counts, report::sized_cases(result, request), flags.search, flags.quiet);
-    if (!found) return os::stopped_exit_code();
+    if (!found) return interrupted();
     request.scope.found.insert(request.scope.found.end(), found->begin(), found->end());
   }
   if (!request.scope.grid_of.empty()) {
     const auto guests = samples_of_guests(*counts, report::sized_cases(result, request), flags.quiet);
-    if (!guests) return os::stopped_exit_code();
+    if (!guests) return interrupted();
     request.scope.guests = *guests;
   }
   for (const std::string& view : report::views_of_dark_lights(result))

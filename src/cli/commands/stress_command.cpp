@@ -153,7 +153,7 @@ ExitCode stress(const StressFlags& flags) {
   const std::vector<std::string> failures = report::stress_failures(result);
   for (const std::string& failure : failures) print_message("FAILED " + failure);
   if (result.interrupted) {
-    print_message("interrupted: what was done by then is all that is told");
+    print_message("interrupted; all output is of what was done by then" + files_text({flags.output}, "written"));
     return os::stopped_exit_code();
   }
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;

@@ -121,12 +121,11 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;
   if (for_reading) warn_result_not_saved();
-  if (has_failed) {
-    print_message(found.device_failure + "; the worst frames by then are told");
-    return ExitCode::usage;
-  }
-  if (!stop) return ExitCode::ok;
-  print_message("interrupted: the worst frames by then are told");
+  if (!has_failed && !stop) return ExitCode::ok;
+  print_message((has_failed ? found.device_failure : "interrupted") +
+                "; all output is of the frames that were tried by then" +
+                files_text({flags.output, facts.scene_file}, "written"));
+  if (has_failed) return ExitCode::usage;
   return os::stopped_exit_code();
 }
 

@@ -22,6 +22,13 @@ bool is_stream(const std::string& output) {
   return os::output_target(output).is_stream;
 }
 
+std::string files_text(const std::vector<std::string>& outputs, const std::string& what) {
+  std::vector<std::string> files;
+  for (const std::string& output : outputs)
+    if (!is_stream(output)) files.push_back(output);
+  return files.empty() ? "" : "; " + joined(files) + " " + what;
+}
+
 void check_standard_output() {
   errno = 0;
   if (std::cout.rdbuf()->pubsync() == 0 && std::cout) return;

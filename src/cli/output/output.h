@@ -24,6 +24,9 @@ bool is_for_reading(const std::string& output);
 // Then this hint says how to save the result.
 void warn_result_not_saved();
 
+// For the end of a message: "; a.json, b.gltf written" for ("written"); "" without a file among them.
+std::string files_text(const std::vector<std::string>& outputs, const std::string& what);
+
 // Throws Error if an output is one of the inputs, which would be lost, or the same as another output. "" is none.
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 

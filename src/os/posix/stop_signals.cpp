@@ -1,7 +1,10 @@
 #include "os/stop_signals.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
+#include <string_view>
 
 namespace clusterbench::os {
 namespace {
@@ -21,6 +24,13 @@ void on_signal(int number, siginfo_t* info, void* /*context*/) {
   if (g_stop.exchange(true)) std::_Exit(static_cast<int>(code_of(number)));  // the second time: at once
 }
 
+void end(int number) {
+  constexpr std::string_view k_message = "clusterbench: interrupted\n";
+  const ssize_t written = ::write(STDERR_FILENO, k_message.data(), k_message.size());
+  static_cast<void>(written);  // there is nobody left to be told
+  std::_Exit(static_cast<int>(code_of(number)));
+}
+
 void handle(int number) {
   struct sigaction action {};
   action.sa_sigaction = on_signal;
@@ -28,6 +38,7 @@ void handle(int number) {
   sigaction(number, &action, nullptr);
 }
 
+// As SIGHUP under `nohup`.
 bool is_ignored(int number) {
   struct sigaction action {};
   return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -35,10 +46,16 @@ bool is_ignored(int number) {
 
 }  // namespace
 
+void end_on_signals() {
+  ::signal(SIGINT, end);
+  ::signal(SIGTERM, end);
+  if (!is_ignored(SIGHUP)) ::signal(SIGHUP, end);
+}
+
 const std::atomic<bool>& stop_on_signals() {
   handle(SIGINT);
   handle(SIGTERM);
-  if (!is_ignored(SIGHUP)) handle(SIGHUP);  // ignored under `nohup`
+  if (!is_ignored(SIGHUP)) handle(SIGHUP);
   return g_stop;
 }
 

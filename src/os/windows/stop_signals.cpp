@@ -1,6 +1,7 @@
 #include "os/stop_signals.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 
 #include "os/windows/windows_api.h"
@@ -26,8 +27,18 @@ BOOL WINAPI on_console_event(DWORD event) {
   return TRUE;
 }
 
+BOOL WINAPI end(DWORD event) {
+  std::fputs("clusterbench: interrupted\n", stderr);
+  std::_Exit(static_cast<int>(code_of(event == CTRL_C_EVENT ? SIGINT : SIGTERM)));
+}
+
 }  // namespace
 
+void end_on_signals() {
+  ::SetConsoleCtrlHandler(end, TRUE);
+}
+
+// The handler that was set last is called first.
 const std::atomic<bool>& stop_on_signals() {
   static const BOOL is_set = ::SetConsoleCtrlHandler(on_console_event, TRUE);
   static_cast<void>(is_set);
