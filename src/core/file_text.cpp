@@ -1,6 +1,8 @@
 #include "core/file_text.h"
 
 #include <fstream>
+#include <map>
+#include <mutex>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -19,9 +21,13 @@ bool read_block(std::ifstream& in, std::string& text) {
   return text.size() - before == k_block_bytes;
 }
 
-}  // namespace
+// What came through pipes, by name.
+struct PipeTexts {
+  std::mutex mutex;
+  std::map<std::string, std::string> texts;
+};
 
-std::string file_text(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path.string(), "", "is a folder, not a file");
   const bool is_stream = !std::filesystem::is_regular_file(path, ignored);
@@ -40,6 +46,17 @@ std::string file_text(const std::filesystem::path& path) {
           "is longer than " + std::to_string(memory_limit() >> 20) + " MiB, the limit on memory (limits.memory_mib)");
   }
   return text;
+}
+
+}  // namespace
+
+std::string file_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_fifo(path, ignored)) return read_text(path);
+  static PipeTexts pipes;
+  const std::lock_guard lock(pipes.mutex);
+  const auto known = pipes.texts.find(path.string());
+  return known != pipes.texts.end() ? known->second : pipes.texts.emplace(path.string(), read_text(path)).first->second;
 }
 
 bool is_stream_name(const std::filesystem::path& path) {

@@ -38,6 +38,28 @@ struct StreamPlace {
   }
 };
 
+// Some commands read an input twice: first to see what it is.
+TEST(Streams, an_input_may_come_through_a_pipe) {
+  const StreamPlace place;
+  for (const auto& [command, input] : {std::pair<std::string, std::string>("validate", place.config),
+                                       {"validate", place.result},
+                                       {"run -q --no-timing", place.config},
+                                       {"size -q", place.config},
+                                       {"size", place.result},
+                                       {"recommend -q --no-timing", place.config},
+                                       {"worst-case -q --random 0 --evaluations 20", place.config},
+                                       {"ratio", place.result},
+                                       {"merge", place.result},
+                                       {"export --format csv", place.result}}) {
+    const std::string out = (place.folder / "out").string(), err = (place.folder / "err").string();
+    const std::string script = program() + " " + command + " <(cat " + input + ") >" + out + " 2>" + err;
+    const int status = std::system(("timeout 60 bash -c \"" + script + "\"").c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), tool(command + " " + input).code) << command << ": " << file_text(err);
+    EXPECT_NE(file_text(out), "") << command;
+  }
+}
+
 TEST(Streams, output_that_cannot_be_written_is_an_error_of_every_command) {
   const StreamPlace place;
   const auto tells = [&](const char* reason) {

@@ -50,7 +50,7 @@ struct SizeFlags {
 // A configuration may have comments and syntax errors; its own reader reports those.
 bool is_config(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return false;
+  if (!std::filesystem::exists(path, none) || std::filesystem::is_directory(path, none)) return false;
   const Json value = json_or_discarded<Json>(file_text(path), JsonComments::allowed);
   return value.is_object() && !value.empty() && config::document_of(value) == config::Document::config &&
          !value.contains("schema_version") && !value.contains("header");
