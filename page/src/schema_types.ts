@@ -27,7 +27,7 @@ export type Machine = {
     end: number; // Just after; a run adds its own threads
   }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
   os: string; // System, kernel and architecture
-  host?: string; // Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where nothing is timed or counted in instructions, and where the machine does not tell its name
+  host?: string; // Of a result: start of the SHA-256 of the machine's name, by which `merge` keeps times of two machines of one kind apart. Absent where nothing is timed or counted in instructions, and where the machine does not tell its name
 };
 
 // [x, y, z]
@@ -198,17 +198,19 @@ export type Result = {
     count: number; // Of all shards of the run [shards, over the run]
     sweep: string; // SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, cases
     filter?: string; // That selected the run's cases (--filter); absent without one
+    host?: string; // Of earlier builds, which wrote it here: now `machine.host`
     cases: number; // Of this result, when it was written: `merge` counts them [cases, over the result]
     baseline?: {
       file: string; // As the shard opened it: relative to the folder that it ran in
       sha256: string; // SHA-256 of the file: `merge` takes no other
     }; // The result that `merge` holds all cases against (--baseline, limits.baseline); absent without one
   }; // The result is this part of a run (`run --shard`), and `clusterbench merge` makes one result of all parts. Absent: it is whole
-  machine: Machine; // Where it was measured; with `machines` the first of them
+  machine: Machine; // Where it was measured; with `machines` the kind of the first of them
   machines?: Array<{
     name: string; // Of `machine` of its cases: machine 1, machine 2 ...
     machine: Machine; // As `machine` of a result
     simd_target: string; // As `tool.simd_target`
+    host?: string; // As `machine.host` of a result; absent where it is not known
   }>; // Of a merged result the machines whose times, device's times or instructions it has; those of two are never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one
   device?: {
     name: string; // Its name, from its driver

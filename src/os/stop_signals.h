@@ -7,8 +7,10 @@
 
 namespace clusterbench::os {
 
-// Until stop_on_signals() is called, a signal ends the program with a message and its exit code.
+// From here on, until stop_on_signals() is called, a signal that is not ignored ends the program as end_at_signal does.
 void end_on_signals();
+// Ends with a message and the exit code of an interruption. A signal handler may call it.
+void end_at_signal(int number);
 
 // Becomes true at the first signal; the second ends the program at once.
 const std::atomic<bool>& stop_on_signals();

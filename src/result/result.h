@@ -62,8 +62,9 @@ struct Machine {
         "one minute, the machine");
   FIELD(std::string, os, "System, kernel and architecture");
   FIELD(std::optional<std::string>, host,
-        "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
-        "nothing is timed or counted in instructions, and where the machine does not tell its name");
+        "Of a result: start of the SHA-256 of the machine's name, by which `merge` keeps times of two machines of one "
+        "kind apart. Absent where nothing is timed or counted in instructions, and where the machine does not tell "
+        "its name");
   END_RECORD;
 };
 
@@ -89,6 +90,7 @@ struct MeasuredMachine {
   FIELD(std::string, name, "Of `machine` of its cases: machine 1, machine 2 ...");
   FIELD(Machine, machine, "As `machine` of a result");
   FIELD(std::string, simd_target, "As `tool.simd_target`");
+  FIELD(std::optional<std::string>, host, "As `machine.host` of a result; absent where it is not known");
   END_RECORD;
 };
 
@@ -107,6 +109,7 @@ struct Shard {
         "SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, "
         "cases");
   FIELD(std::optional<std::string>, filter, "That selected the run's cases (--filter); absent without one");
+  FIELD(std::optional<std::string>, host, "Of earlier builds, which wrote it here: now `machine.host`");
   FIELD(std::uint64_t, cases, "Of this result, when it was written: `merge` counts them", "cases", "the result");
   FIELD(std::optional<ShardBaseline>, baseline,
         "The result that `merge` holds all cases against (--baseline, limits.baseline); absent without one");
@@ -403,7 +406,7 @@ struct Result {
   FIELD(std::optional<Shard>, shard,
         "The result is this part of a run (`run --shard`), and `clusterbench merge` makes one result of all parts. "
         "Absent: it is whole");
-  FIELD(Machine, machine, "Where it was measured; with `machines` the first of them");
+  FIELD(Machine, machine, "Where it was measured; with `machines` the kind of the first of them");
   FIELD(std::optional<std::vector<MeasuredMachine>>, machines,
         About("Of a merged result the machines whose times, device's times or instructions it has; those of two are "
               "never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one")

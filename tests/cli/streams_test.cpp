@@ -1,4 +1,4 @@
-// Standard output that takes nothing, and standard streams that are closed.
+// Standard output that takes nothing, standard streams that are closed, and inputs that come through pipes.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

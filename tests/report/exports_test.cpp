@@ -93,7 +93,7 @@ TEST(Exports, the_headline_is_part_of_everything) {
 
 TEST(Exports, times_of_several_machines_have_a_column_that_names_them_or_are_refused) {
   result::Result merged = test::result_of(result());
-  merged.machines = {{"machine 1", merged.machine, "AVX2"}, {"machine 2", merged.machine, "SCALAR"}};
+  merged.machines = {{"machine 1", merged.machine, "AVX2", {}}, {"machine 2", merged.machine, "SCALAR", {}}};
   merged.cases[0].machine = "machine 1";
   merged.cases[1].machine = "machine 2";
   const std::string table = exported(merged, export_format("csv"), false);

@@ -186,14 +186,14 @@ TEST(Merge, two_hosts_of_one_kind_are_two_machines) {
     return out;
   };
   const auto numbered = [](NamedPart out, std::uint64_t index) {
-    out.result.shard = {index, 2, std::string(64, '0'), {}, out.result.cases.size(), {}};
+    out.result.shard = {index, 2, std::string(64, '0'), {}, {}, out.result.cases.size(), {}};
     return out;
   };
   const NamedPart slow = part("a", "slow", "aa"), near = part("b", "fast", "aa"), far = part("b", "fast", "bb");
   for (const auto& [first, second] : {std::pair(slow, far), std::pair(numbered(slow, 1), numbered(far, 2))}) {
     const result::Result all = merged({first, second});
     ASSERT_TRUE(all.machines);
-    EXPECT_EQ((*all.machines)[1].machine.host, "bb");
+    EXPECT_EQ((*all.machines)[1].host, "bb");
     EXPECT_FALSE(all.machine.host);
     ASSERT_EQ(all.conclusions->size(), 2u);
     for (const result::Conclusion& one : *all.conclusions)
@@ -204,6 +204,14 @@ TEST(Merge, two_hosts_of_one_kind_are_two_machines) {
     EXPECT_FALSE(all.machines);
     EXPECT_EQ(all.machine.host, "aa");
   }
+}
+
+TEST(Merge, hosts_that_earlier_builds_wrote_into_shards_count) {
+  std::vector<NamedPart> parts{shard("a.json", "slow"), shard("b.json", "fast")};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i].result.shard = {i + 1, 2, std::string(64, '0'), {}, i == 0 ? "aa" : "bb", parts[i].result.cases.size(),
+                             {}};
+  EXPECT_TRUE(merged(parts).machines);
 }
 
 TEST(Merge, a_merged_result_of_one_host_is_merged_on_with_others_of_it) {

@@ -38,7 +38,7 @@ TEST(Size, of_times_of_several_machines_the_smallest_structure_is_shown_and_no_c
   result::Result merged = record_of(by_hand, {});
   const SizeRequest request{"", false, "cpp", "none"};
   EXPECT_NE(size_report(without_times_of_machines(merged), request).find("/aabb/packed"), std::string::npos);
-  merged.machines = {{"machine 1", merged.machine, "AVX2"}, {"machine 2", merged.machine, "SCALAR"}};
+  merged.machines = {{"machine 1", merged.machine, "AVX2", {}}, {"machine 2", merged.machine, "SCALAR", {}}};
   merged.cases[0].machine = "machine 1";
   merged.cases[1].machine = "machine 2";
   const std::string shown = size_report(without_times_of_machines(merged), request);

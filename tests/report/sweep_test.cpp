@@ -13,7 +13,7 @@ namespace {
 
 NamedPart shard_of_three(std::uint64_t index) {
   NamedPart part{"s" + std::to_string(index) + ".json", record_of(testing::result_by_hand(), {})};
-  part.result.shard = {index, 3, std::string(64, 'a'), {}, part.result.cases.size(), {}};
+  part.result.shard = {index, 3, std::string(64, 'a'), {}, {}, part.result.cases.size(), {}};
   return part;
 }
 
@@ -81,12 +81,13 @@ TEST(Sweep, shards_of_other_programs_configurations_filters_and_numbers_are_refu
             "result");
   EXPECT_EQ(refusal_of_other([](result::Result& other) { other.shard->count = 4; }),
             "s2.json: /shard: is shard 2 of 4, and s1.json is shard 1 of 3");
-  EXPECT_EQ(refusal_of_other([](result::Result& other) {
-              other.scenes.at(0).sha256 = "0";
-            }).find("s2.json: /scenes/" + shards({1}).front().result.scenes.at(0).name + ": is \"0\", and "),
+  EXPECT_EQ(refusal_of_other([](result::Result& other) { other.scenes.at(0).sha256 = "0"; })
+                .find("s2.json: /scenes/0/sha256: is of another " + shards({1}).front().result.scenes.at(0).name +
+                      " than that of s1.json: "),
             0u);
   EXPECT_EQ(refusal_of_other([](result::Result&) {}),
-            "s2.json: /shard/sweep: is of another run than s1.json: its plug-ins or cases differ");
+            "s2.json: /shard/sweep: is of another run than s1.json: scenes, their triangles, plug-ins, shaders, "
+            "--count or cases differ");
 }
 
 TEST(Sweep, shards_that_were_changed_after_their_run_are_refused_though_their_sweep_is_one) {

@@ -51,13 +51,13 @@ CLI::Option* with_text(CLI::Option* option) {
   return option->check(check);
 }
 
-// Rejects another option of the command as a value, which is behind an option whose value was forgotten. No argument:
-// that may be a file of any name.
+// Rejects an option of the command as a value: it stands behind an option whose value was forgotten. Not of an
+// argument, which may be a file of any name.
 CLI::Option* with_own_text(const CLI::App& command, CLI::Option* option) {
   const auto check = [&command](const std::string& word) -> std::string {
     const std::string name = word.substr(0, word.find('='));
-    const bool is_option = name.starts_with("--") && command.get_option_no_throw(name) != nullptr;
-    return is_option ? "takes a value, and " + name + " is an option" : "";
+    const bool is_option = name.starts_with('-') && command.get_option_no_throw(name) != nullptr;
+    return is_option ? "takes no option as its value, and " + name + " is one" : "";
   };
   return option->get_positional() ? with_text(option) : with_text(option)->check(check);
 }
@@ -120,7 +120,7 @@ Option& Option::at_least(std::uint64_t least) {
 }
 
 Option& Option::seed() {
-  limit(*option_, std::uint64_t{0}, (std::uint64_t{1} << 53) - 1, "from 0 to 2^53 - 1");
+  limit(*option_, std::uint64_t{0}, k_most_seed, "from 0 to 2^53 - 1");
   return shows_standard();
 }
 

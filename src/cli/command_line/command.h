@@ -14,6 +14,9 @@ class Option;
 
 namespace clusterbench::cli {
 
+// As in configurations: any reader of JSON keeps it.
+inline constexpr std::uint64_t k_most_seed = (std::uint64_t{1} << 53) - 1;
+
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -24,7 +27,7 @@ class Option {
   Option& range(int least, int most);
   Option& range(double least, double most);
   Option& at_least(std::uint64_t least);
-  Option& seed();  // 0 to 2^53 - 1, as in configurations: any reader of JSON keeps it; shows the value before parsing
+  Option& seed();  // 0 to k_most_seed; shows the value before parsing
   Option& positive();
   Option& positive_to(double most);
   Option& non_negative();

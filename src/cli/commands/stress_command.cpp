@@ -122,6 +122,8 @@ std::string methods_of(const StressFlags& flags) {
 ExitCode stress(const StressFlags& flags) {
   load_plugins(flags.plugins);
   stress::StressRequest request = flags.request;
+  if (request.random > 0 && request.random - 1 > k_most_seed - request.seed)
+    throw Error("", "--random", "goes beyond the seed 2^53 - 1: setting i has the seed --seed + i");
   const std::string methods = methods_of(flags);
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(methods, "--methods");
@@ -153,7 +155,8 @@ ExitCode stress(const StressFlags& flags) {
   const std::vector<std::string> failures = report::stress_failures(result);
   for (const std::string& failure : failures) print_message("FAILED " + failure);
   if (result.interrupted) {
-    print_message("interrupted; all output is of what was done by then" + files_text({flags.output}, "written"));
+    print_message("interrupted; all output is of what was done by then" +
+                  files_text({flags.output, flags.failures}, "written"));
     return os::stopped_exit_code();
   }
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;

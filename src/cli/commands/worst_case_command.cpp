@@ -124,7 +124,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!has_failed && !stop) return ExitCode::ok;
   print_message((has_failed ? found.device_failure : "interrupted") +
                 "; all output is of the frames that were tried by then" +
-                files_text({flags.output, facts.scene_file}, "written"));
+                files_text({flags.output, facts.scene_file, facts.config_file}, "written"));
   if (has_failed) return ExitCode::usage;
   return os::stopped_exit_code();
 }

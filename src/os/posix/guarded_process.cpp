@@ -236,6 +236,7 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
   note_own_process();
   close_notes_file(notes);
   if (!end_with_parent(self)) ::_exit(static_cast<int>(ExitCode::internal));
+  end_on_signals();
   stop_on_signals_of(self);
   watch_for_crashes();
   keep_output_apart();

@@ -18,6 +18,7 @@
 
 #include "os/posix/system_calls.h"
 #include "os/standard_streams.h"
+#include "os/stop_signals.h"
 
 namespace clusterbench::os {
 namespace {
@@ -63,10 +64,6 @@ void hold_signal(int number) {
   g_pending_signal = number;
 }
 
-void end_process(int number) {
-  std::_Exit(static_cast<int>(number == SIGINT ? ExitCode::sigint : ExitCode::interrupted));
-}
-
 // Replaces the handlers of terminating signals for a while. In one thread at a time. Ignored signals stay ignored.
 class SignalsHandled {
  public:
@@ -75,7 +72,7 @@ class SignalsHandled {
       struct sigaction action {};
       action.sa_handler = handler;
       ::sigaction(k_ending_signals[i], nullptr, &before_[i]);
-      const bool ends_already = handler == end_process && before_[i].sa_handler == SIG_DFL;
+      const bool ends_already = handler == end_at_signal && before_[i].sa_handler == SIG_DFL;
       if (before_[i].sa_handler != SIG_IGN && !ends_already) ::sigaction(k_ending_signals[i], &action, nullptr);
     }
   }
@@ -265,7 +262,7 @@ void OutputFile::write(std::string_view text) {
   if (!target_.is_stream) return replace(text);
   std::cout << std::flush;
   std::fflush(stdout);
-  const SignalsHandled ending(end_process);  // a reader that reads nothing must not block the exit
+  const SignalsHandled ending(end_at_signal);  // a reader that reads nothing must not block the exit
   if (!is_written_to(stream_, text)) fail("could not be written whole");
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 // Global, since a signal handler can access nothing else.
 std::atomic<bool> g_stop{false};
+std::atomic<bool> g_ends{false};  // the first signal does
 std::atomic<int> g_signal{0};
 std::atomic<int> g_sender{0};  // whose signals count; 0: all
 
@@ -21,14 +22,8 @@ ExitCode code_of(int number) {
 void on_signal(int number, siginfo_t* info, void* /*context*/) {
   if (g_sender != 0 && info->si_pid != g_sender) return;
   g_signal = number;
+  if (g_ends) return end_at_signal(number);
   if (g_stop.exchange(true)) std::_Exit(static_cast<int>(code_of(number)));  // the second time: at once
-}
-
-void end(int number) {
-  constexpr std::string_view k_message = "clusterbench: interrupted\n";
-  const ssize_t written = ::write(STDERR_FILENO, k_message.data(), k_message.size());
-  static_cast<void>(written);  // there is nobody left to be told
-  std::_Exit(static_cast<int>(code_of(number)));
 }
 
 void handle(int number) {
@@ -46,13 +41,24 @@ bool is_ignored(int number) {
 
 }  // namespace
 
+void end_at_signal(int number) {
+  constexpr std::string_view k_message = "clusterbench: interrupted\n";
+  const ssize_t written = ::write(STDERR_FILENO, k_message.data(), k_message.size());
+  static_cast<void>(written);  // there is nobody left to be told
+  if (number != SIGINT) std::_Exit(static_cast<int>(code_of(number)));
+  // By the signal itself, which a shell sees as exit code 130: then it ends a loop of commands, too.
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
 void end_on_signals() {
-  ::signal(SIGINT, end);
-  ::signal(SIGTERM, end);
-  if (!is_ignored(SIGHUP)) ::signal(SIGHUP, end);
+  g_ends = true;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (!is_ignored(number)) handle(number);
 }
 
 const std::atomic<bool>& stop_on_signals() {
+  g_ends = false;
   handle(SIGINT);
   handle(SIGTERM);
   if (!is_ignored(SIGHUP)) handle(SIGHUP);

@@ -1,8 +1,8 @@
 #include "os/stop_signals.h"
 
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "os/windows/windows_api.h"
 
@@ -28,11 +28,19 @@ BOOL WINAPI on_console_event(DWORD event) {
 }
 
 BOOL WINAPI end(DWORD event) {
-  std::fputs("clusterbench: interrupted\n", stderr);
-  std::_Exit(static_cast<int>(code_of(event == CTRL_C_EVENT ? SIGINT : SIGTERM)));
+  end_at_signal(event == CTRL_C_EVENT ? SIGINT : SIGTERM);
+  return TRUE;
 }
 
 }  // namespace
+
+void end_at_signal(int number) {
+  constexpr std::string_view k_message = "clusterbench: interrupted\n";
+  DWORD written = 0;  // not by stderr, which another thread may hold
+  ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), k_message.data(), static_cast<DWORD>(k_message.size()), &written,
+              nullptr);
+  std::_Exit(static_cast<int>(code_of(number)));
+}
 
 void end_on_signals() {
   ::SetConsoleCtrlHandler(end, TRUE);

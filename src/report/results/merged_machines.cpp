@@ -19,9 +19,8 @@ MeasuredMachine machine_of(const result::Case& result_case, const result::Result
         machine.name.clear();
         return machine;
       }
-  MeasuredMachine out{"", machine_kind(part.machine), part.tool.simd_target};
-  out.machine.host = part.machine.host;
-  return out;
+  const std::optional<std::string> of_shard = part.shard ? part.shard->host : std::optional<std::string>();
+  return {"", machine_kind(part.machine), part.tool.simd_target, part.machine.host ? part.machine.host : of_shard};
 }
 
 bool is_one(const MeasuredMachine& known, MeasuredMachine machine) {
@@ -57,8 +56,8 @@ void MachinesOfParts::name_in(result::Case& result_case, const result::Result& p
 
 void MachinesOfParts::add_to(result::Result& merged) const {
   if (!machines_.empty()) {
-    const result::Machine& first = machines_.front().machine;
-    merged.machine = machines_.size() == 1 ? first : machine_kind(first);
+    merged.machine = machines_.front().machine;
+    if (machines_.size() == 1) merged.machine.host = machines_.front().host;
     merged.tool.simd_target = machines_.front().simd_target;
   }
   if (machines_.size() > 1) merged.machines = machines_;

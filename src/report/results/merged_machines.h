@@ -20,7 +20,7 @@ class MachinesOfParts {
 
   // Writes the machine's name into a measured case of a part; none if all are of one machine.
   void name_in(result::Case& result_case, const result::Result& part) const;
-  // Writes them, if there are several, and the first of them as `machine`.
+  // Writes them, if there are several, and the first of them as `machine`, with its host if it is the only one.
   void add_to(result::Result& merged) const;
 
  private:

@@ -60,11 +60,13 @@ Json program_of(const result::Result& result) {
   return tool;
 }
 
-// By name.
-Json contents_of_scenes(const result::Result& result) {
-  Json out = Json::object();
-  for (const result::Scene& scene : result.scenes) out[scene.name] = scene.sha256;
-  return out;
+void check_scenes(const NamedPart& first, const NamedPart& next) {
+  const std::vector<result::Scene>&one = first.result.scenes, &other = next.result.scenes;
+  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i)
+    if (one[i].name == other[i].name && one[i].sha256 != other[i].sha256)
+      refuse(next, "/scenes/" + std::to_string(i) + "/sha256",
+             "is of another " + shown(one[i].name) + " than that of " + first.file +
+                 ": shards of different runs have no place in one result");
 }
 
 std::string digest_of_baseline(const result::Result& result) {
@@ -90,9 +92,11 @@ void check_of_one_run(const NamedPart& first, const NamedPart& next) {
     refuse(next, "/shard", "is " + shard_text(*other.shard) + ", and " + first.file + " is " + shard_text(*one.shard));
   check_same(first, next, "/shard/filter", one.shard->filter.value_or(""), other.shard->filter.value_or(""));
   check_same(first, next, "/shard/baseline", digest_of_baseline(one), digest_of_baseline(other));
-  check_same(first, next, "/scenes", contents_of_scenes(one), contents_of_scenes(other));
+  check_scenes(first, next);
   if (one.shard->sweep == other.shard->sweep) return;
-  refuse(next, "/shard/sweep", "is of another run than " + first.file + ": its plug-ins or cases differ");
+  refuse(
+      next, "/shard/sweep",
+      "is of another run than " + first.file + ": scenes, their triangles, plug-ins, shaders, --count or cases differ");
 }
 
 std::vector<std::string> missing_numbers(const std::vector<NamedPart>& parts, std::size_t most) {

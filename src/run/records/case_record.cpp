@@ -185,7 +185,7 @@ result::Machine record_of(const MachineFacts& machine) {
 }
 
 result::Shard record_of(const PlannedShard& shard) {
-  result::Shard out{shard.index, shard.count, shard.sweep, known(shard.filter), 0, {}};
+  result::Shard out{shard.index, shard.count, shard.sweep, known(shard.filter), {}, 0, {}};
   if (!shard.baseline_file.empty()) out.baseline = {shard.baseline_file, shard.baseline_sha256};
   return out;
 }
