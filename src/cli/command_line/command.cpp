@@ -53,7 +53,7 @@ CLI::Option* with_text(CLI::Option* option) {
 
 // Rejects an option of the command as a value: it stands behind an option whose value was forgotten. Not of an
 // argument, which may be a file of any name.
-CLI::Option* with_own_text(const CLI::App& command, CLI::Option* option) {
+CLI::Option* with_text_but_no_option(const CLI::App& command, CLI::Option* option) {
   const auto check = [&command](const std::string& word) -> std::string {
     const std::string name = word.substr(0, word.find('='));
     const bool is_option = name.starts_with('-') && command.get_option_no_throw(name) != nullptr;
@@ -172,11 +172,11 @@ Command Command::add_command(const std::string& name, const std::string& summary
 }
 
 Option Command::add_option(const std::string& names, std::string& value, const std::string& summary) {
-  return Option(with_own_text(*app_, app_->add_option(names, value, summary)));
+  return Option(with_text_but_no_option(*app_, app_->add_option(names, value, summary)));
 }
 
 Option Command::add_option(const std::string& names, std::vector<std::string>& values, const std::string& summary) {
-  return Option(with_own_text(*app_, app_->add_option(names, values, summary)));
+  return Option(with_text_but_no_option(*app_, app_->add_option(names, values, summary)));
 }
 
 Option Command::add_option(const std::string& names, int& value, const std::string& summary) {

@@ -45,8 +45,16 @@ Json run_identity(const RunFlags& flags, const config::Config& config, const run
   return header;
 }
 
+namespace {
+
+bool depends_on_machine(const RunFlags& flags, const config::Config& config) {
+  return config.timing.measure || !flags.count.empty();
+}
+
+}  // namespace
+
 std::string host_digest(const RunFlags& flags, const config::Config& config) {
-  if (!config.timing.measure && flags.count.empty()) return "";
+  if (!depends_on_machine(flags, config)) return "";
   constexpr std::size_t k_digits = 12;
   const std::string name = os::host_name();
   return name.empty() ? "" : sha256_hex(name).substr(0, k_digits);
@@ -58,7 +66,7 @@ namespace {
 Json journal_header(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   Json header = run_identity(flags, config, plan);
   if (plan.shard) header["shard"] = {plan.shard->index, plan.shard->count};
-  if (config.timing.measure || !flags.count.empty())
+  if (depends_on_machine(flags, config))
     header["machine"] = {{"cpu", run::machine_facts().cpu}, {"host", host_digest(flags, config)}};
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
