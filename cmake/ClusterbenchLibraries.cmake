@@ -7,7 +7,7 @@ if(CLUSTERBENCH_LIBRARY_ONLY)
 endif()
 find_package(glm REQUIRED)
 # Headers alone, without Boost's own configuration files, whose names differ from version to version.
-find_path(BOOST_INCLUDE boost/multiprecision/cpp_int.hpp REQUIRED)
+find_path(BOOST_INCLUDE boost/math/distributions/students_t.hpp REQUIRED)
 file(STRINGS ${BOOST_INCLUDE}/boost/version.hpp Boost_VERSION REGEX "define BOOST_LIB_VERSION")
 string(REGEX REPLACE ".*\"([0-9_]+)\".*" "\\1" Boost_VERSION "${Boost_VERSION}")
 string(REPLACE "_" "." Boost_VERSION "${Boost_VERSION}")

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 namespace clusterbench::geom {
 namespace {
@@ -14,16 +16,23 @@ void expect_holds(const RationalInterval& bounds, const Rational& value, unsigne
   EXPECT_LT((bounds.hi - bounds.lo) * Rational(Integer(1) << (bits - 12)), 1);
 }
 
+// The decimal fraction 0.<digits>.
+Rational decimal_fraction(std::string_view digits) {
+  Integer numerator = 0, denominator = 1;
+  for (const char digit : digits) {
+    numerator = numerator * 10 + (digit - '0');
+    denominator = denominator * 10;
+  }
+  return {numerator, denominator};
+}
+
 TEST(BoundsOfAngle, hold_the_first_hundred_digits_of_the_cosine_and_sine_of_one) {
-  const Rational digits(Integer("1" + std::string(100, '0')));
-  const Rational cosine = Rational(Integer("540302305868139717400936607442976603732310420617922227670097255381100394"
-                                           "7744717645179518560871830893")) /
-                          Rational(Integer("1" + std::string(100, '0')));
-  const Rational sine = Rational(Integer("841470984807896506652502321630298999622563060798371065672751709991910404"
-                                         "3912396689486397435430526958")) /
-                        digits;
+  const Rational cosine = decimal_fraction(
+      "5403023058681397174009366074429766037323104206179222276700972553811003947744717645179518560871830893");
+  const Rational sine = decimal_fraction(
+      "8414709848078965066525023216302989996225630607983710656727517099919104043912396689486397435430526958");
   const AngleBounds bounds = bounds_of_angle(1, 320);  // 96 digits
-  const Rational last = 1 / digits;
+  const Rational last = decimal_fraction("0" + std::string(98, '0') + "1");
   expect_holds({bounds.cosine.lo - last, bounds.cosine.hi + last}, cosine, 318);
   expect_holds({bounds.sine.lo - last, bounds.sine.hi + last}, sine, 318);
 }
@@ -36,8 +45,8 @@ TEST(BoundsOfAngle, hold_numbers_whose_squares_add_to_one) {
       const Rational inner = std::min(abs(bounds.cosine.lo), abs(bounds.cosine.hi));
       EXPECT_TRUE(squared(outer) + squared(bounds.sine.hi) >= 1) << angle;
       EXPECT_TRUE(squared(inner) + squared(std::max(Rational(0), bounds.sine.lo)) <= 1) << angle;
-      EXPECT_NEAR(static_cast<double>(bounds.sine.hi), std::sin(angle), 1e-15);
-      EXPECT_NEAR(static_cast<double>(bounds.cosine.lo), std::cos(angle), 1e-15);
+      EXPECT_TRUE(abs(bounds.sine.hi - exact(std::sin(angle))) <= exact(1e-15));
+      EXPECT_TRUE(abs(bounds.cosine.lo - exact(std::cos(angle))) <= exact(1e-15));
     }
 }
 

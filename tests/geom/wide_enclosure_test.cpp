@@ -68,15 +68,16 @@ void expect_square_roots(int tries) {
   SplitMix64 random(11);
   for (int i = 0; i < tries; ++i) {
     const auto exponent = static_cast<int>(random.below(4000)) - 2000;
-    const FloatOf<bits> third = FloatOf<bits>(random.between(0.1, 1.0)) / 3, square = ldexp(third, exponent);
-    const FloatOf<bits> root = SquareRoot<FloatOf<bits>>::of(square);
+    const BinaryFloat<bits> third = BinaryFloat<bits>(random.between(0.1, 1.0)) / 3, square = ldexp(third, exponent);
+    const BinaryFloat<bits> root = SquareRoot<BinaryFloat<bits>>::of(square);
     // In the last place: of the root, half of what its square is off by.
     const Rational off = abs(squared(exact<bits>(root)) / exact<bits>(square) - 1) * Rational(Integer(1) << bits);
     EXPECT_LT(off, 6) << bits << " bits, 2^" << exponent;
   }
   for (const double exactly : {0.0, 1.0, 0.5, 3.0, 0x1p-537, 1.5})
-    EXPECT_EQ(SquareRoot<FloatOf<bits>>::of(FloatOf<bits>(exactly * exactly)), FloatOf<bits>(exactly)) << exactly;
-  EXPECT_EQ(SquareRoot<FloatOf<bits>>::of(FloatOf<bits>(-1)), 0);
+    EXPECT_EQ(SquareRoot<BinaryFloat<bits>>::of(BinaryFloat<bits>(exactly * exactly)), BinaryFloat<bits>(exactly))
+        << exactly;
+  EXPECT_EQ(SquareRoot<BinaryFloat<bits>>::of(BinaryFloat<bits>(-1)), 0);
 }
 
 TEST(SquareRoot, is_right_to_the_last_bits) {

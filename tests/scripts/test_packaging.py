@@ -264,7 +264,7 @@ class OfThisBuild(unittest.TestCase):
             self.assertEqual(found[name].how, how)
         self.assertTrue(all(piece.text and piece.version for piece in found.values()))
         library = {piece.name for piece in pieces.library_pieces(facts)} if (self.build / "libclusterbench_assign.a").exists() else set()
-        self.assertLessEqual(library, {"boost", "glm", "highway"})
+        self.assertLessEqual(library, {"glm", "highway"})
         documented = (ROOT / "docs/third-party.md").read_text(encoding="utf-8").lower().replace(" ", "-")
         names = {name: pieces.known_licences()[name].get("documented", name) for name, piece in found.items() if piece.how != "page"}
         self.assertEqual([name for name, written in names.items() if f"[{written}]" not in documented], [])

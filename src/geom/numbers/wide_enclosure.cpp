@@ -17,9 +17,9 @@ struct Least<double> {
   static double most() { return std::numeric_limits<double>::max(); }
 };
 template <>
-struct Least<FloatOf<64>> {
-  static FloatOf<64> value() { return ldexp(FloatOf<64>(1), -1000000); }
-  static FloatOf<64> most() { return ldexp(FloatOf<64>(1), 1000000); }
+struct Least<BinaryFloat<64>> {
+  static BinaryFloat<64> value() { return ldexp(BinaryFloat<64>(1), -1000000); }
+  static BinaryFloat<64> most() { return ldexp(BinaryFloat<64>(1), 1000000); }
 };
 
 // The rounding of sums, products and quotients of a few non-negative radii is far less than this factor.
@@ -47,7 +47,7 @@ bool is_known(const Radius& radius) {
 
 // Eight times the largest rounding error of a middle; never 0, however small the middle is.
 template <class Radius, unsigned bits>
-Radius rounding_of(const FloatOf<bits>& value) {
+Radius rounding_of(const BinaryFloat<bits>& value) {
   using std::ldexp;
   if (value == 0) return 0;
   return rounded_up<Radius>(at_least<Radius>(value) * ldexp(Radius(1), 4 - static_cast<int>(bits)));
@@ -60,7 +60,7 @@ Radius unless_exact(const Radius& sum, const Radius& radius_a, const Radius& rad
 }
 
 template <unsigned bits, class Radius>
-EnclosureOf<bits, Radius> made(const FloatOf<bits>& middle, const Radius& radius) {
+EnclosureOf<bits, Radius> made(const BinaryFloat<bits>& middle, const Radius& radius) {
   const Radius total = radius + rounding_of<Radius, bits>(middle);
   return {middle, total == 0 ? Radius(0) : rounded_up(total)};
 }
@@ -138,7 +138,7 @@ bool EnclosureOf<bits, Radius>::is_surely_below(const EnclosureOf& b) const {
 }
 
 template class EnclosureOf<1024, double>;
-template class EnclosureOf<3072, FloatOf<64>>;
+template class EnclosureOf<3072, BinaryFloat<64>>;
 
 Roots<Enclosure1024> roots_of(const Polynomial<Enclosure1024>& polynomial, int bits) {
   return RootSearch<Enclosure1024>(polynomial, bits).run();

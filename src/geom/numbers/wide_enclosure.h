@@ -15,7 +15,7 @@ namespace clusterbench::geom {
 template <unsigned bits, class RadiusType>
 class EnclosureOf {
  public:
-  using Middle = FloatOf<bits>;
+  using Middle = BinaryFloat<bits>;
   using Radius = RadiusType;
 
   EnclosureOf() = default;
@@ -55,7 +55,7 @@ class EnclosureOf {
 };
 
 using Enclosure1024 = EnclosureOf<1024, double>;
-using Enclosure3072 = EnclosureOf<3072, FloatOf<64>>;
+using Enclosure3072 = EnclosureOf<3072, BinaryFloat<64>>;
 
 template <>
 struct Precision<Enclosure1024> {

@@ -1,32 +1,18 @@
 #pragma once
 // Floating point with 256, 1024 and 3072 bits, for the search of evidence that is then proven in exact numbers.
 
-#if CLUSTERBENCH_OWN_NUMBERS
-#include "geom/numbers/own_float.h"
-#else
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#endif
 #include <cmath>
 
+#include "geom/numbers/binary_float.h"
 #include "geom/numbers/point3.h"
 #include "geom/numbers/precision.h"
 #include "geom/numbers/rational.h"
 
 namespace clusterbench::geom {
 
-#if CLUSTERBENCH_OWN_NUMBERS
-template <unsigned bits>
-using FloatOf = own_numbers::Float<bits>;
-#else
-template <unsigned bits>
-using FloatOf =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
-                                  boost::multiprecision::et_off>;
-#endif
-
-using Float256 = FloatOf<256>;
-using Float1024 = FloatOf<1024>;
-using Float3072 = FloatOf<3072>;
+using Float256 = BinaryFloat<256>;
+using Float1024 = BinaryFloat<1024>;
+using Float3072 = BinaryFloat<3072>;
 
 template <>
 struct Precision<Float256> {
@@ -47,29 +33,29 @@ struct Precision<Float3072> {
 };
 
 // Root of a finite number, right to two units in the last place; 0 for a negative number. Newton's steps for 1 / sqrt,
-// starting from a double's; each step doubles the bits. The library computes bit by bit.
+// starting from a double's; each step doubles the bits.
 template <unsigned bits>
-struct SquareRoot<FloatOf<bits>> {
-  static FloatOf<bits> of(const FloatOf<bits>& square) {
+struct SquareRoot<BinaryFloat<bits>> {
+  static BinaryFloat<bits> of(const BinaryFloat<bits>& square) {
     if (!(square > 0)) return 0;
     int exponent = 0;
-    FloatOf<bits> part = frexp(square, &exponent);  // 0.5 <= part < 1
+    BinaryFloat<bits> part = frexp(square, &exponent);  // 0.5 <= part < 1
     if (exponent % 2 != 0) {
       part = ldexp(part, 1);
       --exponent;
     }
-    FloatOf<bits> inverse(1.0 / std::sqrt(static_cast<double>(part)));
+    BinaryFloat<bits> inverse(1.0 / std::sqrt(static_cast<double>(part)));
     for (unsigned right = 48; right < bits / 2 + 8; right *= 2)
-      inverse += ldexp(FloatOf<bits>(inverse * (1 - part * inverse * inverse)), -1);
-    FloatOf<bits> root = part * inverse;
-    root += ldexp(FloatOf<bits>(inverse * (part - root * root)), -1);
+      inverse += ldexp(BinaryFloat<bits>(inverse * (1 - part * inverse * inverse)), -1);
+    BinaryFloat<bits> root = part * inverse;
+    root += ldexp(BinaryFloat<bits>(inverse * (part - root * root)), -1);
     return ldexp(root, exponent / 2);
   }
 };
 
 // value: finite.
 template <unsigned bits>
-Rational exact(const FloatOf<bits>& value) {
+Rational exact(const BinaryFloat<bits>& value) {
   int exponent = 0;
   const Integer digits(ldexp(frexp(value, &exponent), static_cast<int>(bits)));
   exponent -= static_cast<int>(bits);
@@ -77,7 +63,7 @@ Rational exact(const FloatOf<bits>& value) {
 }
 
 template <unsigned bits>
-RationalPoint exact(const Point3<FloatOf<bits>>& p) {
+RationalPoint exact(const Point3<BinaryFloat<bits>>& p) {
   return {exact<bits>(p.x), exact<bits>(p.y), exact<bits>(p.z)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -13,7 +14,6 @@
 namespace clusterbench::report {
 namespace {
 
-using geom::Integer;
 using geom::Rational;
 
 // The shortest decimal that reads as this double, up to 15 digits: the number as written. 2.9 is 29/10.
@@ -22,23 +22,23 @@ Rational decimal(double value) {
   const auto [end, failed] = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific);
   const std::string_view all(text, static_cast<std::size_t>(end - text));
   const std::size_t e = all.find('e');
-  std::string digits;
+  std::int64_t number = 0;  // of at most 17 digits
   int exponent = 0;
   std::string_view exponent_text = all.substr(e + 1);
   if (exponent_text.starts_with('+')) exponent_text.remove_prefix(1);
   std::from_chars(exponent_text.data(), exponent_text.data() + exponent_text.size(), exponent);
-  bool is_behind_point = false;
+  bool is_negative = false, is_behind_point = false;
   for (const char c : all.substr(0, e)) {
-    if (c == '.') {
-      is_behind_point = true;
-      continue;
-    }
-    digits += c;
+    is_negative = is_negative || c == '-';
+    is_behind_point = is_behind_point || c == '.';
+    if (c == '-' || c == '.') continue;
+    number = 10 * number + (c - '0');
     if (is_behind_point) --exponent;
   }
-  const Integer power = pow(Integer(10), static_cast<unsigned>(std::abs(exponent)));
-  const Integer number(digits);
-  return exponent < 0 ? Rational(number, power) : Rational(number * power);
+  Rational power = 1;
+  for (int i = 0; i < std::abs(exponent); ++i) power *= 10;
+  const Rational size = exponent < 0 ? number / power : number * power;
+  return is_negative ? -size : size;
 }
 
 Rational exact_value(const Quotient& quotient) {

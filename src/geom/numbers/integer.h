@@ -1,12 +1,12 @@
 #pragma once
-// Whole numbers without limit, for where the library for engines is built without Boost (rational.h).
+// Whole numbers without limit. Multiplied and divided as on paper: those of exact decisions have a few dozen limbs.
 
 #include <compare>
 #include <concepts>
 #include <cstdint>
 #include <vector>
 
-namespace clusterbench::geom::own_numbers {
+namespace clusterbench::geom {
 
 // Magnitudes: limbs, least significant first, without a leading zero; none for 0.
 using Limb = std::uint64_t;
@@ -57,4 +57,4 @@ class Integer {
   bool is_negative_ = false;
 };
 
-}  // namespace clusterbench::geom::own_numbers
+}  // namespace clusterbench::geom

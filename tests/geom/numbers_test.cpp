@@ -1,4 +1,4 @@
-// The numbers of the library that is built without Boost, against Boost's.
+// Our integers, rational numbers and floats against Boost's.
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "core/random.h"
 #include "effort.h"
-#include "geom/numbers/own_float.h"
-#include "geom/numbers/own_rational.h"
+#include "geom/numbers/binary_float.h"
+#include "geom/numbers/rational.h"
 
-namespace clusterbench::geom::own_numbers {
+namespace clusterbench::geom {
 namespace {
 
 namespace mp = boost::multiprecision;
@@ -35,7 +35,7 @@ Integer drawn(SplitMix64& random, std::size_t limbs) {
   return {out, random.below(2) == 1};
 }
 
-TEST(OwnInteger, computes_as_Boost_does) {
+TEST(Integers, computes_as_Boost_does) {
   SplitMix64 random(3);
   for (int i = 0; i < test::tries(20000); ++i) {
     const Integer a = drawn(random, 12), b = drawn(random, 6);
@@ -60,7 +60,7 @@ TEST(OwnInteger, computes_as_Boost_does) {
   }
 }
 
-TEST(OwnInteger, has_bits_and_zeros_at_its_end) {
+TEST(Integers, has_bits_and_zeros_at_its_end) {
   EXPECT_EQ(Integer(0).bits(), 0u);
   EXPECT_EQ(Integer(0).zeros(), 0u);
   EXPECT_EQ(Integer(-12).bits(), 4u);
@@ -78,7 +78,7 @@ double drawn_double(SplitMix64& random) {
   return std::ldexp(random.between(-1.0, 1.0), static_cast<int>(random.below(120)) - 60);
 }
 
-TEST(OwnRational, computes_as_Boost_does_also_where_fractions_become_long) {
+TEST(Rationals, computes_as_Boost_does_also_where_fractions_become_long) {
   SplitMix64 random(5);
   for (int round = 0; round < test::tries(300); ++round) {
     Rational a(drawn_double(random));
@@ -111,25 +111,25 @@ TEST(OwnRational, computes_as_Boost_does_also_where_fractions_become_long) {
 }
 
 template <class Number>
-class OwnFloats : public testing::Test {};
+class BinaryFloats : public testing::Test {};
 template <unsigned bits>
 struct Bits {
   static constexpr unsigned k_bits = bits;
-  using Own = Float<bits>;
+  using Own = BinaryFloat<bits>;
   using Boosts = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
 };
 using Widths = testing::Types<Bits<64>, Bits<256>, Bits<1024>, Bits<3072>>;
-TYPED_TEST_SUITE(OwnFloats, Widths);
+TYPED_TEST_SUITE(BinaryFloats, Widths);
 
 // The exact value.
 template <class Wide, unsigned bits>
-Wide in_boost(const Float<bits>& value) {
+Wide in_boost(const BinaryFloat<bits>& value) {
   int exponent = 0;
   const Integer digits(ldexp(frexp(value, &exponent), bits));
   return ldexp(Wide(of_boost(digits)), exponent - static_cast<int>(bits));
 }
 
-TYPED_TEST(OwnFloats, round_to_nearest) {
+TYPED_TEST(BinaryFloats, round_to_nearest) {
   using Own = typename TypeParam::Own;
   using Wide = mp::number<mp::cpp_bin_float<2 * TypeParam::k_bits + 128, mp::digit_base_2>, mp::et_off>;
   using Boosts = typename TypeParam::Boosts;
@@ -166,7 +166,7 @@ TYPED_TEST(OwnFloats, round_to_nearest) {
   }
 }
 
-TYPED_TEST(OwnFloats, have_cosines_and_sines_to_nearly_all_bits) {
+TYPED_TEST(BinaryFloats, have_cosines_and_sines_to_nearly_all_bits) {
   using Own = typename TypeParam::Own;
   using Wide = mp::number<mp::cpp_bin_float<TypeParam::k_bits + 128, mp::digit_base_2>, mp::et_off>;
   SplitMix64 random(13);
@@ -178,16 +178,16 @@ TYPED_TEST(OwnFloats, have_cosines_and_sines_to_nearly_all_bits) {
   }
 }
 
-TYPED_TEST(OwnFloats, convert_among_their_widths_and_from_whole_numbers) {
+TYPED_TEST(BinaryFloats, convert_among_their_widths_and_from_whole_numbers) {
   using Own = typename TypeParam::Own;
-  const Float<3072> third = Float<3072>(1) / 3;
+  const BinaryFloat<3072> third = BinaryFloat<3072>(1) / 3;
   EXPECT_LT(std::abs(static_cast<double>(Own(third) * 3 - 1)), 0x1p-60);
-  EXPECT_TRUE(Own(Float<64>(0.3)) == Own(0.3));
+  EXPECT_TRUE(Own(BinaryFloat<64>(0.3)) == Own(0.3));
   EXPECT_TRUE(Own(Integer(1) << 5000) == ldexp(Own(1), 5000));
   EXPECT_TRUE(Own(-7) == -Own(7.0));
 }
 
-TYPED_TEST(OwnFloats, know_zero_infinity_and_nan) {
+TYPED_TEST(BinaryFloats, know_zero_infinity_and_nan) {
   using Own = typename TypeParam::Own;
   const Own zero = 0, endless = Own::infinity(), nan = endless - endless;
   EXPECT_TRUE(zero == -zero);
@@ -203,4 +203,4 @@ TYPED_TEST(OwnFloats, know_zero_infinity_and_nan) {
 }
 
 }  // namespace
-}  // namespace clusterbench::geom::own_numbers
+}  // namespace clusterbench::geom

@@ -1,4 +1,4 @@
-#include "geom/numbers/own_integer.h"
+#include "geom/numbers/integer.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 
 #include "geom/numbers/two_limbs.h"
 
-namespace clusterbench::geom::own_numbers {
+namespace clusterbench::geom {
 namespace {
 
 void trim(Limbs& limbs) {
@@ -219,4 +219,4 @@ Integer greatest_common_divisor(Integer a, Integer b) {
   return {a.limbs_, false};
 }
 
-}  // namespace clusterbench::geom::own_numbers
+}  // namespace clusterbench::geom

@@ -1,6 +1,5 @@
 #pragma once
-// Floating point with a fixed number of bits, for where the library for engines is built without Boost (wide_float.h).
-// Results are rounded to nearest, ties to even; the exponent has 64 bits.
+// Floating point with a fixed number of bits. Results are rounded to nearest, ties to even; the exponent has 64 bits.
 
 #include <algorithm>
 #include <array>
@@ -11,25 +10,25 @@
 #include <cstdint>
 #include <limits>
 
-#include "geom/numbers/own_integer.h"
+#include "geom/numbers/integer.h"
 #include "geom/numbers/two_limbs.h"
 
-namespace clusterbench::geom::own_numbers {
+namespace clusterbench::geom {
 
 template <unsigned bits>
-class Float {
+class BinaryFloat {
   static constexpr std::size_t k_limbs = bits / k_limb_bits;
   static_assert(k_limbs * k_limb_bits == bits && k_limbs > 0);
   using Digits = std::array<Limb, k_limbs>;
   template <unsigned>
-  friend class Float;
+  friend class BinaryFloat;
 
  public:
-  Float() = default;
+  BinaryFloat() = default;
   template <std::integral Number>
-  Float(Number value) : Float(Integer(value)) {}
+  BinaryFloat(Number value) : BinaryFloat(Integer(value)) {}
   template <std::floating_point Number>
-  Float(Number value) {
+  BinaryFloat(Number value) {
     if (std::isnan(value)) kind_ = Kind::nan;
     if (std::isinf(value)) kind_ = Kind::infinite;
     is_negative_ = std::signbit(value);
@@ -40,7 +39,7 @@ class Float {
     exponent_ = exponent;
     digits_[k_limbs - 1] = static_cast<Limb>(std::ldexp(part, 64));
   }
-  explicit Float(const Integer& value) : is_negative_(value.sign() < 0) {
+  explicit BinaryFloat(const Integer& value) : is_negative_(value.sign() < 0) {
     if (value.sign() == 0) return;
     kind_ = Kind::number;
     exponent_ = value.bits();
@@ -50,8 +49,8 @@ class Float {
     if (below > 0) round((value >> (below - 1)).zeros() == 0, value.zeros() + 1 < below);
   }
   template <unsigned others>
-  requires(others != bits) explicit Float(const Float<others>& other) {
-    if (other.kind_ == Float<others>::Kind::number) {
+  requires(others != bits) explicit BinaryFloat(const BinaryFloat<others>& other) {
+    if (other.kind_ == BinaryFloat<others>::Kind::number) {
       *this = made(other.digits_, other.exponent_, other.is_negative_, false);
     } else {
       kind_ = static_cast<Kind>(other.kind_);
@@ -77,43 +76,43 @@ class Float {
                              : all >> static_cast<unsigned>(bits - exponent_);
   }
 
-  Float operator-() const {
-    Float out = *this;
+  BinaryFloat operator-() const {
+    BinaryFloat out = *this;
     out.is_negative_ = !is_negative_;
     return out;
   }
-  friend Float operator+(const Float& a, const Float& b) { return sum(a, b); }
-  friend Float operator-(const Float& a, const Float& b) { return sum(a, -b); }
-  friend Float operator*(const Float& a, const Float& b) { return a.times(b); }
-  friend Float operator/(const Float& a, const Float& b) { return a.over(b); }
-  Float& operator+=(const Float& b) { return *this = *this + b; }
-  Float& operator-=(const Float& b) { return *this = *this - b; }
-  Float& operator*=(const Float& b) { return *this = *this * b; }
-  Float& operator/=(const Float& b) { return *this = *this / b; }
+  friend BinaryFloat operator+(const BinaryFloat& a, const BinaryFloat& b) { return sum(a, b); }
+  friend BinaryFloat operator-(const BinaryFloat& a, const BinaryFloat& b) { return sum(a, -b); }
+  friend BinaryFloat operator*(const BinaryFloat& a, const BinaryFloat& b) { return a.times(b); }
+  friend BinaryFloat operator/(const BinaryFloat& a, const BinaryFloat& b) { return a.over(b); }
+  BinaryFloat& operator+=(const BinaryFloat& b) { return *this = *this + b; }
+  BinaryFloat& operator-=(const BinaryFloat& b) { return *this = *this - b; }
+  BinaryFloat& operator*=(const BinaryFloat& b) { return *this = *this * b; }
+  BinaryFloat& operator/=(const BinaryFloat& b) { return *this = *this / b; }
 
-  friend std::partial_ordering operator<=>(const Float& a, const Float& b) {
+  friend std::partial_ordering operator<=>(const BinaryFloat& a, const BinaryFloat& b) {
     if (a.kind_ == Kind::nan || b.kind_ == Kind::nan) return std::partial_ordering::unordered;
     if (a.sign() != b.sign()) return a.sign() <=> b.sign();
     return a.sign() < 0 ? 0 <=> compared(a, b) : compared(a, b) <=> 0;
   }
-  friend bool operator==(const Float& a, const Float& b) { return (a <=> b) == 0; }
+  friend bool operator==(const BinaryFloat& a, const BinaryFloat& b) { return (a <=> b) == 0; }
 
-  friend Float abs(const Float& a) { return a.is_negative_ ? -a : a; }
-  friend Float ldexp(Float a, std::int64_t exponent) {
+  friend BinaryFloat abs(const BinaryFloat& a) { return a.is_negative_ ? -a : a; }
+  friend BinaryFloat ldexp(BinaryFloat a, std::int64_t exponent) {
     a.exponent_ += exponent;
     return a;
   }
-  friend Float frexp(Float a, int* exponent) {
+  friend BinaryFloat frexp(BinaryFloat a, int* exponent) {
     *exponent = a.kind_ == Kind::number ? static_cast<int>(a.exponent_) : 0;
     if (a.kind_ == Kind::number) a.exponent_ = 0;
     return a;
   }
   // Series; for angles of a few radians.
-  friend Float cos(const Float& angle) { return series(angle, Float(1), 1); }
-  friend Float sin(const Float& angle) { return series(angle, angle, 2); }
+  friend BinaryFloat cos(const BinaryFloat& angle) { return series(angle, BinaryFloat(1), 1); }
+  friend BinaryFloat sin(const BinaryFloat& angle) { return series(angle, angle, 2); }
 
-  static Float infinity() {
-    Float out;
+  static BinaryFloat infinity() {
+    BinaryFloat out;
     out.kind_ = Kind::infinite;
     return out;
   }
@@ -121,20 +120,20 @@ class Float {
  private:
   enum class Kind : std::uint8_t { zero, number, infinite, nan };
 
-  static Float not_a_number() {
-    Float out;
+  static BinaryFloat not_a_number() {
+    BinaryFloat out;
     out.kind_ = Kind::nan;
     return out;
   }
-  Float with_sign(bool is_negative) const {
-    Float out = *this;
+  BinaryFloat with_sign(bool is_negative) const {
+    BinaryFloat out = *this;
     out.is_negative_ = is_negative;
     return out;
   }
   int sign() const { return kind_ == Kind::zero ? 0 : is_negative_ ? -1 : 1; }
 
   // Of the magnitudes; neither is nan.
-  static int compared(const Float& a, const Float& b) {
+  static int compared(const BinaryFloat& a, const BinaryFloat& b) {
     if (a.kind_ != b.kind_) return a.kind_ < b.kind_ ? -1 : 1;
     if (a.kind_ != Kind::number) return 0;
     if (a.exponent_ != b.exponent_) return a.exponent_ < b.exponent_ ? -1 : 1;
@@ -143,7 +142,7 @@ class Float {
     return 0;
   }
 
-  static Float sum(const Float& a, const Float& b) {
+  static BinaryFloat sum(const BinaryFloat& a, const BinaryFloat& b) {
     if (a.kind_ == Kind::nan || b.kind_ == Kind::nan) return not_a_number();
     if (a.kind_ == Kind::infinite || b.kind_ == Kind::infinite) {
       const bool cancel = a.kind_ == b.kind_ && a.is_negative_ != b.is_negative_;
@@ -155,7 +154,7 @@ class Float {
   }
 
   // |a| >= |b|. With 64 bits below the last one of a.
-  static Float sum_of_numbers(const Float& a, const Float& b) {
+  static BinaryFloat sum_of_numbers(const BinaryFloat& a, const BinaryFloat& b) {
     const std::int64_t distance = a.exponent_ - b.exponent_;
     if (distance >= static_cast<std::int64_t>(bits) + k_limb_bits) return a;
     std::array<Limb, k_limbs + 2> wide{};  // guard, digits, carry
@@ -207,12 +206,12 @@ class Float {
 
   // The top bits of a whole number whose highest possible bit has this exponent.
   template <std::size_t size>
-  static Float made(const std::array<Limb, size>& wide, std::int64_t exponent, bool is_negative, bool has_more) {
+  static BinaryFloat made(const std::array<Limb, size>& wide, std::int64_t exponent, bool is_negative, bool has_more) {
     std::size_t top = size;
     while (top > 0 && wide[top - 1] == 0) --top;
     if (top == 0) return {};
     const auto zeros = static_cast<unsigned>(std::countl_zero(wide[top - 1]));
-    Float out;
+    BinaryFloat out;
     out.kind_ = Kind::number;
     out.is_negative_ = is_negative;
     out.exponent_ = exponent - static_cast<std::int64_t>((size - top) * k_limb_bits + zeros);
@@ -229,7 +228,7 @@ class Float {
     return out;
   }
 
-  Float times(const Float& b) const {
+  BinaryFloat times(const BinaryFloat& b) const {
     const bool is_negative = is_negative_ != b.is_negative_;
     if (kind_ == Kind::nan || b.kind_ == Kind::nan) return not_a_number();
     if (kind_ != Kind::number || b.kind_ != Kind::number) {
@@ -250,7 +249,7 @@ class Float {
     return made(wide, exponent_ + b.exponent_, is_negative, false);
   }
 
-  Float over(const Float& b) const {
+  BinaryFloat over(const BinaryFloat& b) const {
     const bool is_negative = is_negative_ != b.is_negative_;
     if (kind_ == Kind::nan || b.kind_ == Kind::nan || (kind_ == b.kind_ && kind_ != Kind::number))
       return not_a_number();
@@ -261,19 +260,19 @@ class Float {
     // Two bits more than needed, and one that says whether there is a rest.
     const Integer moved = dividend << (bits + 2), quotient = moved / divisor;
     const bool has_rest = !(quotient * divisor == moved);
-    Float out((quotient << 1) + (has_rest ? 1 : 0));
+    BinaryFloat out((quotient << 1) + (has_rest ? 1 : 0));
     out.exponent_ += exponent_ - b.exponent_ - static_cast<std::int64_t>(bits) - 3;
     out.is_negative_ = is_negative;
     return out;
   }
 
   // first - first x²/(n (n + 1)) + ...: of the cosine from 1 and n = 1, of the sine from x and n = 2.
-  static Float series(const Float& x, const Float& first, int n) {
-    const Float square = x * x;
-    Float term = first, total = first;
+  static BinaryFloat series(const BinaryFloat& x, const BinaryFloat& first, int n) {
+    const BinaryFloat square = x * x;
+    BinaryFloat term = first, total = first;
     for (; term.kind_ == Kind::number && term.exponent_ > total.exponent_ - static_cast<std::int64_t>(bits) - 8;
          n += 2) {
-      term = -(term * square / Float(n * (n + 1)));
+      term = -(term * square / BinaryFloat(n * (n + 1)));
       total += term;
     }
     return total;
@@ -285,13 +284,11 @@ class Float {
   Digits digits_{};
 };
 
-}  // namespace clusterbench::geom::own_numbers
+}  // namespace clusterbench::geom
 
 template <unsigned bits>
-class std::numeric_limits<clusterbench::geom::own_numbers::Float<bits>> {
+class std::numeric_limits<clusterbench::geom::BinaryFloat<bits>> {
  public:
   static constexpr bool is_specialized = true;
-  static clusterbench::geom::own_numbers::Float<bits> infinity() {
-    return clusterbench::geom::own_numbers::Float<bits>::infinity();
-  }
+  static clusterbench::geom::BinaryFloat<bits> infinity() { return clusterbench::geom::BinaryFloat<bits>::infinity(); }
 };
