@@ -35,7 +35,7 @@ inline void fill(const result::Type& type, const result::Json& json, void* value
     std::size_t known = 0;
     for (const result::Field& field : type.fields)
       if (const auto found = json.find(field.name); found != json.end()) {
-        fill(*field.type, *found, field.make(value));
+        fill(*field.type, *found, field.make_in(value));
         ++known;
       }
     if (known != json.size()) throw std::invalid_argument("a field that no record has: " + json.dump());
@@ -66,7 +66,7 @@ template <class Next>
 void fill_with_numbers(const result::Type& type, void* value, Next&& next) {
   using result::Kind;
   if (type.kind == Kind::object) {
-    for (const result::Field& field : type.fields) fill_with_numbers(*field.type, field.make(value), next);
+    for (const result::Field& field : type.fields) fill_with_numbers(*field.type, field.make_in(value), next);
   } else if (type.kind == Kind::list) {
     const std::size_t size = type.fixed_size > 0 ? type.fixed_size : type.element->kind == Kind::object ? 1 : 0;
     for (std::size_t i = 0; i < size; ++i) fill_with_numbers(*type.element, type.append(value, i, ""), next);

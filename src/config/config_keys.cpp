@@ -44,7 +44,7 @@ struct Keys {
 
   template <auto member>
   Keys& add(const char* name) {
-    FieldCollector<Record>(type.fields).template add<member>(name, About().as_fraction());
+    FieldCollector<Record>(type.fields).add(name, About().as_fraction(), member);
     return *this;
   }
   Keys& with_type(const Type& other) {  // for the last key, in place of its member's

@@ -78,7 +78,7 @@ void check_value(const Type& type, const About& about, const void* value, const 
 
 void check_values(const Type& type, const void* record, const std::string& where) {
   for (const Field& field : type.fields)
-    if (const void* value = field.get(record)) check_value(*field.type, field.about, value, where + "/" + field.name);
+    if (const void* value = field.in(record)) check_value(*field.type, field.about, value, where + "/" + field.name);
 }
 
 }  // namespace clusterbench::result

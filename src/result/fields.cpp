@@ -129,9 +129,9 @@ void value_from_json(const Type& type, const Json& json, void* value, const std:
 
 }  // namespace
 
-void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, bool is_optional,
-               const void* (*get)(const void* record), void* (*make)(void* record)) {
-  fields.push_back({name, about, &type, is_optional, get, make});
+void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, std::size_t offset,
+               const OptionalAccess* optional) {
+  fields.push_back({name, about, &type, offset, optional});
 }
 
 Json number_json(double value, bool is_fraction) {
@@ -145,7 +145,7 @@ Json number_json(double value, bool is_fraction) {
 Json to_json(const Type& type, const void* record, int threads) {
   Json::object_t out = members_of(type.fields.size());
   for (const Field& field : type.fields)
-    if (const void* value = field.get(record))
+    if (const void* value = field.in(record))
       out.emplace_back(field.name, value_to_json(*field.type, value, field.about.is_fraction, threads));
   return out;
 }
@@ -156,8 +156,8 @@ void from_json(const Type& type, const Json& json, void* record, const std::stri
     const auto found = json.find(field.name);
     if (found != json.end()) {
       ++known;
-      value_from_json(*field.type, *found, field.make(record), where + "/" + field.name);
-    } else if (!field.is_optional && !field.about.is_late) {
+      value_from_json(*field.type, *found, field.make_in(record), where + "/" + field.name);
+    } else if (field.optional == nullptr && !field.about.is_late) {
       throw Error("", where + "/" + field.name, "is missing");
     }
   }

@@ -98,13 +98,29 @@ enum class Kind : std::uint8_t { boolean, integer, number, text, list, object, b
 
 struct Type;
 
+// The value of a std::optional: null if it is absent; a new one.
+struct OptionalAccess {
+  const void* (*get)(const void* optional) = nullptr;
+  void* (*make)(void* optional) = nullptr;
+};
+
 struct Field {
   std::string name;
   About about;
   const Type* type = nullptr;
-  bool is_optional = false;
-  const void* (*get)(const void* record) = nullptr;  // null if it is absent
-  void* (*make)(void* record) = nullptr;             // creates an absent one
+  std::size_t offset = 0;                    // in its record
+  const OptionalAccess* optional = nullptr;  // of a field that can be absent
+
+  // Null if it is absent.
+  const void* in(const void* record) const {
+    const void* member = static_cast<const char*>(record) + offset;
+    return optional == nullptr ? member : optional->get(member);
+  }
+  // Creates an absent one.
+  void* make_in(void* record) const {
+    void* member = static_cast<char*>(record) + offset;
+    return optional == nullptr ? member : optional->make(member);
+  }
 };
 
 // Reading and writing of values of a C++ type.
@@ -152,15 +168,15 @@ T initial() {
 #define LIST_FIELD(name, member, about)                               \
   template <class F>                                                  \
   static void list(F& field, std::integral_constant<int, __LINE__>) { \
-    field.template add<&Self::member>(name, about);                   \
+    field.add(name, about, &Self::member);                            \
   }                                                                   \
   static_assert(true)
 #define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
 #define END_RECORD static constexpr int k_last_line = __LINE__
 
-// Not in the class: hundreds of fields of its instances would each build it anew.
-void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, bool is_optional,
-               const void* (*get)(const void* record), void* (*make)(void* record));
+// Not in the class: hundreds of its instances would each build a field anew.
+void add_field(std::vector<Field>& fields, const char* name, const About& about, const Type& type, std::size_t offset,
+               const OptionalAccess* optional = nullptr);
 
 // Collects the fields of a record, its own and those of its Rest.
 template <class Record>
@@ -168,30 +184,29 @@ class FieldCollector {
  public:
   explicit FieldCollector(std::vector<Field>& fields) : fields_(fields) {}
 
-  template <auto Member>
-  void add(const char* name, const About& about) {
-    add_typed<Member>(name, about, Member);
+  template <class Holder, class T>
+  void add(const char* name, const About& about, T Holder::*member) {
+    add_field(fields_, name, about, type_of<T>(), offset_of(member));
+  }
+  template <class Holder, class T>
+  void add(const char* name, const About& about, std::optional<T> Holder::*member) {
+    static constexpr OptionalAccess k_access{
+        [](const void* optional) -> const void* {
+          const auto& value = *static_cast<const std::optional<T>*>(optional);
+          return value ? &*value : nullptr;
+        },
+        [](void* optional) -> void* { return &static_cast<std::optional<T>*>(optional)->emplace(); }};
+    add_field(fields_, name, about, type_of<T>(), offset_of(member), &k_access);
   }
 
  private:
-  template <auto Member, class Holder, class T>
-  void add_typed(const char* name, const About& about, T Holder::*) {
-    add_field(
-        fields_, name, about, type_of<T>(), false,
-        [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
-        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); });
-  }
-  template <auto Member, class Holder, class T>
-  void add_typed(const char* name, const About& about, std::optional<T> Holder::*) {
-    add_field(
-        fields_, name, about, type_of<T>(), true,
-        [](const void* record) -> const void* {
-          const auto& value = static_cast<const Record*>(record)->*Member;
-          return value ? &*value : nullptr;
-        },
-        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member).emplace(); });
+  template <class Member>
+  std::size_t offset_of(Member member) const {
+    return static_cast<std::size_t>(reinterpret_cast<const char*>(&(record_.*member)) -
+                                    reinterpret_cast<const char*>(&record_));
   }
 
+  const Record record_{};
   std::vector<Field>& fields_;
 };
 

@@ -139,7 +139,7 @@ class SchemaWriter {
       properties[field.name] = field_schema(*field.type, field.about);
       if (field.about.is_late)
         late.push_back(field.name);
-      else if (!field.is_optional)
+      else if (field.optional == nullptr)
         required.push_back(field.name);
     }
     Json out{{"type", "object"}, {"properties", properties}};

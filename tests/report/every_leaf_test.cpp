@@ -101,7 +101,7 @@ class Leaves {
       Compares own = field.about.compares;
       if (own == Compares::as_holder) own = without_lists(*field.type).about.compares;
       if (own == Compares::as_holder) own = rule;
-      add({pointer + "/" + field.name, field.type, field.about, own, field.is_optional});
+      add({pointer + "/" + field.name, field.type, field.about, own, field.optional != nullptr});
     }
   }
 

@@ -47,8 +47,8 @@ class PartsOfOne {
   // where there is nothing to record.
   void add_fields(const result::Type& type, const void* base, const void* next, const std::string& prefix) {
     for (const result::Field& field : type.fields) {
-      if (!field.is_optional || !is_part(*field.type)) continue;
-      const void *in_base = field.get(base), *in_next = field.get(next);
+      if (field.optional == nullptr || !is_part(*field.type)) continue;
+      const void *in_base = field.in(base), *in_next = field.in(next);
       if ((in_base == nullptr) != (in_next == nullptr))
         ++(in_base == nullptr ? count_of(prefix + field.name).next : count_of(prefix + field.name).base);
       else if (in_base != nullptr && field.type == &result::type_of<result::SampleSets>())
