@@ -1,5 +1,6 @@
 #include "scene/gltf_document/gltf_location.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,7 +20,7 @@ std::string child_of(const std::string& pointer, std::string_view name) {
   std::string out;
   out.reserve(pointer.size() + 1 + name.size());
   out.append(pointer).append(1, '/');
-  if (name.find_first_of("~/") == std::string_view::npos) return out.append(name);
+  if (std::ranges::none_of(name, [](char c) { return c == '~' || c == '/'; })) return out.append(name);
   for (const char c : name) {
     if (c == '~') {
       out += "~0";
