@@ -84,7 +84,6 @@ class Run {
         stop_(stop),
         counts_(counts),
         launcher_(launcher),
-        paths_(config, plan),
         costs_(config, plan, costs),
         on_one_thread_(config) {
     on_one_thread_.threads = 1;
@@ -216,11 +215,11 @@ class Run {
     for (std::size_t i = 0; config_.timing.measure && i < groups.size() && !stop_; ++i) finish(i);
   }
 
-  // Before the groups share the threads, since all would only wait for it. What it throws, the first group throws
-  // again.
+  // Its lights, before the groups share the threads, since all would only wait for them. What it throws, the first
+  // group throws again.
   void make_first_path(const std::vector<GroupPlan>& groups) {
     try {
-      paths_.of(groups.front());
+      path_of(config_, plan_, groups.front());
     } catch (const Error&) {
     }
   }
@@ -228,7 +227,7 @@ class Run {
   Counting counted_beside_others(const GroupPlan& group, const config::Config& config, const Stop& stop) {
     Counting out;
     try {
-      const PathFrames path = paths_.of(group);
+      const PathFrames path = path_of(config_, plan_, group);
       const BudgetShare share(lists_, most_list_bytes(config, group, path), stop);
       if (share.has_it() && !stop) out.counts = counted(config, group, path, stop);
     } catch (...) {
@@ -250,7 +249,7 @@ class Run {
 
   void run_group(const GroupPlan& group, Result& out) {
     attempt(group, out, [&] {
-      const PathFrames path = paths_.of(group);
+      const PathFrames path = path_of(config_, plan_, group);
       std::optional<GroupCounts> counts = counted(config_, group, path, stop_);
       if (counts) conclude(group, std::move(*counts), out);
     });
@@ -354,7 +353,7 @@ class Run {
   void conclude(const GroupPlan& group, GroupCounts counts, Result& out) {
     CountedGroup counted_group{std::move(counts), group, timed_cases(config_, group), {}, {}};
     if (!config_.timing.measure) return add_cases(counted_group, {}, out);
-    const PathFrames path = paths_.of(group);
+    const PathFrames path = path_of(config_, plan_, group);
     if (!time_on_device(group, path, counted_group)) return;
     if (!config_.reading_sets.empty()) {
       report_timing(group, "reading on the device", costs_.reading(group));
@@ -515,7 +514,6 @@ class Run {
   const std::atomic<bool>& stop_;
   const Counts& counts_;
   const Launcher& launcher_;
-  PathOfGroups paths_;
   ProgressCosts costs_;
   static constexpr double k_most_waiting_ns = 2e10;
   // That are counted together. All but the last of them use one thread each.

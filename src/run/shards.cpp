@@ -34,9 +34,7 @@ class LightsReaching {
     const SceneData& data = plan_.scenes[group.scene];
     if (group.camera < data.lights_at_points.size()) return data.lights_at_points[group.camera];
     const auto [found, is_new] = known_.try_emplace({group.scene, group.camera, group.viewport});
-    if (is_new)
-      found->second = lights_at_a_point(data.scene, data.paths[group.camera], config_.viewports[group.viewport],
-                                        config_.seed, config_.threads);
+    if (is_new) found->second = lights_at_a_point(path_of(config_, plan_, group), config_.seed);
     return found->second;
   }
 

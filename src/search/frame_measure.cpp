@@ -196,10 +196,10 @@ std::optional<double> FrameMeter::theoretical_max() const {
 
 void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan) {
   grid::GridSpec& spec = config.grids[case_plan.grid];
-  const scene::CameraPath& path = plan.scenes[case_plan.scene].paths[case_plan.camera];
-  const run::PathFrames recorded(plan.scenes[case_plan.scene].scene, path, config.viewports[case_plan.viewport]);
+  const run::PathFrames recorded =
+      run::path_of(config, plan.scenes[case_plan.scene], case_plan.camera, case_plan.viewport);
   const bool has_slices = spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance;
-  const bool is_endless = spec.slices.ends_with_lights(path.shots.front().projection.far_m);
+  const bool is_endless = spec.slices.ends_with_lights(recorded.camera_path().shots.front().projection.far_m);
   if (has_slices && spec.slices.scheme != grid::Scheme::fit && is_endless) spec.slices.far_m = recorded.far_m();
   if (spec.kind != grid::Kind::world || spec.has_bounds || spec.follow == grid::Follow::lights) return;
   const auto [lo, hi] = recorded.light_bounds();

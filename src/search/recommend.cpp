@@ -85,9 +85,7 @@ class ViewSearch {
         costs_(costs),
         grids_(grids_of(view)) {
     for (const std::size_t camera : view.cameras)
-      paths_.emplace_back(plan.scenes[view.scene].scene, plan.scenes[view.scene].paths[camera],
-                          config.viewports[view.viewport], plan.scenes[view.scene].depths.get(), config.threads,
-                          plan.scenes[view.scene].visible_sets.get());
+      paths_.push_back(run::path_of(config, plan.scenes[view.scene], camera, view.viewport));
     found_.records.resize(view.candidates.size());
   }
 

@@ -37,8 +37,10 @@ bool sees_no_light(const config::Config& config, const run::Plan& plan, const ru
   if (!plan.scenes[group.scene].scene.boxes.empty()) return false;
   const run::PathFrames path = run::path_of(config, plan, group);
   measure::LightsInView in_view;
-  for (int frame = 0; frame < path.count() && in_view.seen() == 0; ++frame)
-    measure::add_frame(in_view, path.frame(frame));
+  for (int i = 0; i < path.count() && in_view.seen() == 0; ++i) {
+    const view::Frame frame = path.frame(i);
+    measure::add_frame(in_view, frame, path.lights_in_view(frame));
+  }
   return in_view.seen() == 0;
 }
 

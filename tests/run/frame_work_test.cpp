@@ -17,8 +17,7 @@ TEST(FrameWork, a_point_is_reached_by_the_lights_that_cover_the_whole_view) {
   Walk walk(k_shafts, 5);
   for (int i = 0; i < 3; ++i) walk.add_light({0, 0, -1.0 * i}, 500);
   walk.add_light({0, 0, 900}, 1);
-  const SceneData& data = walk.plan.scenes[0];
-  EXPECT_DOUBLE_EQ(lights_at_a_point(data.scene, data.paths[0], {100, 100}, 1), 3.0);
+  EXPECT_DOUBLE_EQ(lights_at_a_point(path_of(walk.config, walk.plan, walk.plan.groups[0]), 1), 3.0);
 }
 
 TEST(FrameWork, frames_are_fewer_where_many_lights_reach_a_point_and_a_few_in_any_case) {

@@ -68,24 +68,24 @@ TEST(PathFrames, have_the_lights_of_their_moments_on_any_number_of_threads) {
   }
 }
 
-TEST(PathOfGroups, is_that_of_the_groups_own_view) {
+TEST(PathOf, a_group_is_in_the_groups_own_view) {
   testing::Walk walk(testing::k_shafts, 6);
   walk.add_light({0.0, 0.0, -20.0}, 5.0);
   walk.config.viewports.push_back({64, 32});
   SceneData& data = walk.plan.scenes[0];
   data.paths.push_back(data.paths[0]);
   data.paths[1].shots.resize(2);
-  PathOfGroups paths(walk.config, walk.plan);
   GroupPlan group = walk.plan.groups[0];
   for (const std::size_t camera : {0u, 0u, 1u, 0u})
     for (const std::size_t viewport : {0u, 1u, 1u, 0u}) {
       group.camera = camera;
       group.viewport = viewport;
-      const PathFrames path = paths.of(group);
+      const PathFrames path = path_of(walk.config, walk.plan, group);
       EXPECT_EQ(path.count(), camera == 0 ? 6 : 2);
       EXPECT_EQ(path.viewport(), walk.config.viewports[viewport]);
-      EXPECT_EQ(path.far_m(), path_of(walk.config, walk.plan, group).far_m());
+      EXPECT_EQ(path.far_m(), PathFrames(data.scene, data.paths[camera], walk.config.viewports[viewport]).far_m());
     }
+  EXPECT_EQ(data.path_lights->times_found(), 4);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct Planned {
   std::atomic<bool> stop{false};
 };
 
-constexpr const char* k_grids =
+constexpr const char* k_grids_of_threads =
     R"("grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [48, 37]]}, "slices": {"count": [6, 12]}},
                  {"kind": "distance", "slices": {"count": 8}}, {"kind": "cascades"}, {"kind": "world", "cells": [12, 4, 12]}], )";
 
@@ -68,13 +68,15 @@ TEST_P(Threads, change_no_byte_of_a_result) {
 INSTANTIATE_TEST_SUITE_P(
     Counts, Threads,
     ::testing::Values(
-        Row{"methods", "street", std::string(k_grids) + R"("assigners": ["*"], "storages": ["packed", "bitfield"])"},
+        Row{"methods", "street",
+            std::string(k_grids_of_threads) + R"("assigners": ["*"], "storages": ["packed", "bitfield"])"},
         Row{"precisions", "street",
-            std::string(k_grids) + R"("assigners": ["*-fast"], "precision": ["float32", "half"])"},
+            std::string(k_grids_of_threads) + R"("assigners": ["*-fast"], "precision": ["float32", "half"])"},
         Row{"many_samples", "street",
             R"("assigners": ["aabb-fast", "bvh"], "shading": {"samples": 40000}, "lookup": {"samples": 500})"},
         Row{"stability", "street", R"("assigners": ["aabb-fast", "bvh"], "stability": {"steps": 30, "step_mm": 50})"},
-        Row{"details", "street", std::string(k_grids) + R"("assigners": ["*-fast"], "details": {"frames": 5})"},
+        Row{"details", "street",
+            std::string(k_grids_of_threads) + R"("assigners": ["*-fast"], "details": {"frames": 5})"},
         Row{"pre_culls", "slope",
             R"("assigners": ["aabb-fast"], "pre_cull": ["none", ["frustum", {"distance_m": 20}],
                 {"visible_set": {"view_cell_m": 4, "voxel_m": 2, "rays": 512}}])"},
@@ -92,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return std::string(row.param.name); });
 
 Planned several_groups() {
-  return Planned(std::string(k_grids) + R"("assigners": ["aabb", "aabb-fast", "distance", "cascades", "world-grid"])");
+  return Planned(std::string(k_grids_of_threads) +
+                 R"("assigners": ["aabb", "aabb-fast", "distance", "cascades", "world-grid"])");
 }
 
 TEST(Counting, tells_cases_in_the_order_of_the_plan_one_at_a_time) {
@@ -115,7 +118,7 @@ std::string lists_text(Planned& planned, int threads) {
 
 TEST(Counting, without_scratch_memory_has_the_same_lists_on_any_number_of_threads) {
   for (const char* method : {"exact-fast", "aabb-fast", "distance-fast", "cascades-fast", "world-grid-fast"}) {
-    Planned planned(std::string(k_grids) + R"("assigners": [")" + method + R"("])");
+    Planned planned(std::string(k_grids_of_threads) + R"("assigners": [")" + method + R"("])");
     const std::string one = lists_text(planned, 1);
     planned.config.counts_scratch = false;
     for (const int threads : {2, 5}) EXPECT_EQ(lists_text(planned, threads), one) << method << ", " << threads;

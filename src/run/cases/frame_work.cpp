@@ -5,20 +5,17 @@
 
 #include "measure/samples/samples.h"
 #include "measure/samples/shading.h"
-#include "run/cases/path_frames.h"
 
 namespace clusterbench::run {
 
-double lights_at_a_point(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, std::uint64_t seed,
-                         int threads) {
+double lights_at_a_point(const PathFrames& path, std::uint64_t seed) {
   constexpr int k_frames = 4, k_points = 256;
-  const PathFrames frames(scene, path, viewport, nullptr, threads);
-  const std::vector<int> some = evenly_spaced(k_frames, frames.count());
+  const std::vector<int> some = evenly_spaced(k_frames, path.count());
   std::uint64_t reaching = 0, points = 0;
   for (const int index : some) {
-    const view::Frame frame = frames.frame(index);
+    const view::Frame frame = path.frame(index);
     const std::vector<grid::Sample> samples =
-        measure::volume_samples(frame, sample_far(frame, frames.far_m()), k_points, seed);
+        measure::volume_samples(frame, sample_far(frame, path.far_m()), k_points, seed);
     reaching += measure::lights_reaching(frame, samples).pair_count();
     points += samples.size();
   }

@@ -6,15 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "scene/camera_path.h"
-#include "scene/scene.h"
+#include "run/cases/path_frames.h"
 
 namespace clusterbench::run {
 
 // Number of lights that reach a point of the view: mean over some points of some of the path's frames. True pairs grow
 // with it times the number of cells; the light loops of samples grow with it times the number of samples.
-double lights_at_a_point(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, std::uint64_t seed,
-                         int threads = 1);
+double lights_at_a_point(const PathFrames& path, std::uint64_t seed);
 
 // Frames of each path: `most`, or fewer, so that all paths' frames times the lights that reach a point in them are at
 // most `most_lights`, with a small minimum. Paths with one frame keep one.

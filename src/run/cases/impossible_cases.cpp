@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "grid/lights_in_view.h"
 
 namespace clusterbench::run {
 namespace {
@@ -39,7 +40,7 @@ FirstView::FirstView(const SceneData& data, const scene::CameraPath& path, Vec2i
   }
   try {
     frame_ = view::make_frame(data.scene, path.shots.front(), 0, viewport);
-    reach_.add(*frame_);
+    reach_.add(*frame_, grid::lights_in_view(*frame_));
   } catch (const Error& error) {
     obstacle_ = error.what();
   }

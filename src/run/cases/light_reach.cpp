@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/lights_in_view.h"
-
 namespace clusterbench::run {
 
-void LightReach::add(const view::Frame& frame) {
-  const std::vector<bool> in_view = grid::lights_in_view(frame);
+void LightReach::add(const view::Frame& frame, const std::vector<bool>& in_view) {
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const scene::WorldLight& light = frame.lights[i];
     if (!std::isfinite(light.range_m) || !(light.range_m > 0.0)) continue;

@@ -1,6 +1,8 @@
 #pragma once
 // The extent of the lights over frames: input for grids that depend on lights, and for samples.
 
+#include <vector>
+
 #include "view/frame.h"
 
 namespace clusterbench::run {
@@ -8,7 +10,8 @@ namespace clusterbench::run {
 // Covers lights with a finite, positive range: an infinite one has no box, and one of range 0 reaches nothing.
 class LightReach {
  public:
-  void add(const view::Frame& frame);
+  // `in_view`: grid::lights_in_view() of the frame.
+  void add(const view::Frame& frame, const std::vector<bool>& in_view);
   void add(const LightReach& other);
 
   // The box around the lights' balls; a point at the origin without lights.

@@ -5,29 +5,25 @@
 #include <utility>
 
 #include "assign/contract/assigner_run.h"
-#include "core/work_in_order.h"
-#include "scene/digests.h"
+#include "grid/lights_in_view.h"
 
 namespace clusterbench::run {
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
                        int threads, SceneVisibleSets* visible_sets)
-    : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads), visible_sets_(visible_sets) {
-  const int frames = count();
-  if (frames == 0) return;
-  view::Frame first = frame(0);
-  shape_ = first.projection;
-  if (!scene::lights_change(scene))
-    lights_ = std::make_shared<const std::vector<scene::WorldLight>>(std::move(first.lights));
-  std::mutex adding;
-  constexpr int k_frames_at_once = 8;
-  ranges_in_order(threads, frames, k_frames_at_once, [&](int begin, int end) {
-    LightReach reach;
-    for (int i = begin; i < end; ++i) reach.add(frame(i));
-    const std::lock_guard lock(adding);
-    reach_.add(reach);
-  });
-}
+    : PathFrames(scene, path, viewport, std::make_shared<const PathLights>(path_lights(scene, path, viewport, threads)),
+                 depths, threads, visible_sets) {}
+
+PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
+                       std::shared_ptr<const PathLights> lights, FrameDepths* depths, int threads,
+                       SceneVisibleSets* visible_sets)
+    : scene_(scene),
+      path_(path),
+      viewport_(viewport),
+      lights_(std::move(lights)),
+      depths_(depths),
+      threads_(threads),
+      visible_sets_(visible_sets) {}
 
 PathFrames PathFrames::only(std::vector<int> frames) const {
   PathFrames some = *this;
@@ -44,10 +40,13 @@ std::optional<view::Frame> PathFrames::neighbour(const view::Frame& frame) const
   return frame_of_path(frame.index > 0 ? frame.index - 1 : 1);
 }
 
+std::vector<bool> PathFrames::lights_in_view(const view::Frame& frame) const {
+  return is_own_path_ && !lights_->in_view.empty() ? lights_->in_view[static_cast<std::size_t>(frame.index)]
+                                                   : grid::lights_in_view(frame);
+}
+
 view::Frame PathFrames::frame_of_path(int index) const {
-  const scene::Shot& shot = path_.shots[static_cast<std::size_t>(index)];
-  return lights_ ? view::make_frame(scene_, shot, index, viewport_, *lights_)
-                 : view::make_frame(scene_, shot, index, viewport_);
+  return frame_of_shot(scene_, path_, index, viewport_, lights_->lights.get());
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
@@ -59,8 +58,9 @@ grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Fram
 }
 
 grid::GridInputs PathFrames::inputs_before_reaction(const grid::GridSpec& spec, const view::Frame& frame) const {
-  grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, reach_.far_m(), reach_.lo(), reach_.hi());
-  if (inputs.shape) inputs.shape = shape_;
+  grid::GridInputs inputs =
+      grid::grid_inputs(spec.unfitted(), frame, lights_->reach.far_m(), lights_->reach.lo(), lights_->reach.hi());
+  if (inputs.shape) inputs.shape = lights_->shape;
   if (spec.slices.fit) inputs.needed = spans(spec)[static_cast<std::size_t>(frame.index)];
   return inputs;
 }
@@ -68,7 +68,8 @@ grid::GridInputs PathFrames::inputs_before_reaction(const grid::GridSpec& spec, 
 grid::Span PathFrames::needed(const grid::GridSpec& spec, const view::Frame& frame) const {
   const bool needs_depths = depths_ != nullptr && spec.slices.fit->needs_surfaces();
   const std::shared_ptr<const depth::DepthImage> depths = needs_depths ? depths_->of(frame, threads_) : nullptr;
-  return grid::grid_inputs(spec, frame, reach_.far_m(), reach_.lo(), reach_.hi(), depths.get()).needed;
+  return grid::grid_inputs(spec, frame, lights_->reach.far_m(), lights_->reach.lo(), lights_->reach.hi(), depths.get())
+      .needed;
 }
 
 const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) const {
@@ -122,20 +123,19 @@ std::vector<FrameReaction> PathFrames::reactions_to_lights(const grid::GridSpec&
   return reactions;
 }
 
-PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
-  const SceneData& data = plan.scenes[group.scene];
-  return {data.scene,        data.paths[group.camera], config.viewports[group.viewport],
-          data.depths.get(), config.threads,           data.visible_sets.get()};
+PathFrames path_of(const config::Config& config, const SceneData& data, std::size_t camera, std::size_t viewport) {
+  const scene::CameraPath& path = data.paths[camera];
+  const Vec2i pixels = config.viewports[viewport];
+  return {data.scene,
+          path,
+          pixels,
+          data.path_lights->of(data.scene, path, camera, pixels, config.threads),
+          data.depths.get(),
+          config.threads,
+          data.visible_sets.get()};
 }
-
-PathFrames PathOfGroups::of(const GroupPlan& group) {
-  const std::lock_guard lock(mutex_);
-  const std::array view{group.scene, group.camera, group.viewport};
-  if (!last_ || view != view_of_last_) {
-    last_.emplace(path_of(config_, plan_, group));
-    view_of_last_ = view;
-  }
-  return *last_;
+PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
+  return path_of(config, plan.scenes[group.scene], group.camera, group.viewport);
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {

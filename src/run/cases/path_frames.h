@@ -2,12 +2,10 @@
 // The frames of one camera path in one viewport, made on request: a path over a large rig would not fit in memory as a
 // whole.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +13,7 @@
 #include "grid/grid.h"
 #include "measure/samples/samples.h"
 #include "run/cases/frame_depths.h"
-#include "run/cases/light_reach.h"
+#include "run/cases/path_lights.h"
 #include "run/cases/plan.h"
 #include "run/cases/scene_visible_sets.h"
 #include "scene/camera_path.h"
@@ -34,9 +32,12 @@ class PathFrames {
  public:
   // All must outlive this object. Without `depths` its frames have none. `threads`: used where all frames are
   // looked at, and for the depths that grids follow; results do not depend on it. `visible_sets`: of the scene, if a
-  // pre-cull needs them.
+  // pre-cull needs them. `lights`: path_lights() of these.
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
              int threads = 1, SceneVisibleSets* visible_sets = nullptr);
+  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
+             std::shared_ptr<const PathLights> lights, FrameDepths* depths, int threads,
+             SceneVisibleSets* visible_sets);
 
   // The frames of another path in this path's grids, which follow the lights over this path. `other` must outlive them.
   PathFrames along(const scene::CameraPath& other) const { return {*this, other}; }
@@ -50,6 +51,8 @@ class PathFrames {
   view::Frame frame(int index) const;
   // The previous frame of the whole path; for the first frame, the second one. None on a path of one frame.
   std::optional<view::Frame> neighbour(const view::Frame& frame) const;
+  // grid::lights_in_view() of one of the path's frames.
+  std::vector<bool> lights_in_view(const view::Frame& frame) const;
   // Slices that follow needs have the state that they reach in this frame, from the path's first frame on.
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // Spans that slices with `fit` follow, frame by frame; computed once in the path's order, whichever frames are
@@ -61,24 +64,24 @@ class PathFrames {
   // For a single frame.
   grid::Span needed(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The largest distance from any eye of the path at which a light with a finite range still reaches a point.
-  double far_m() const { return reach_.far_m(); }
+  double far_m() const { return lights_->reach.far_m(); }
   // Of this path and of those from along(); null without triangles.
   FrameDepths* depths() const { return depths_; }
   SceneVisibleSets* visible_sets() const { return visible_sets_; }  // null without triangles
   // The box around lights with finite ranges over the path.
-  measure::Bounds light_bounds() const { return {reach_.lo(), reach_.hi()}; }
+  measure::Bounds light_bounds() const { return {lights_->reach.lo(), lights_->reach.hi()}; }
 
  private:
   PathFrames(const PathFrames& whole, const scene::CameraPath& path)
       : scene_(whole.scene_),
         path_(path),
         viewport_(whole.viewport_),
-        reach_(whole.reach_),
         lights_(whole.lights_),
-        shape_(whole.shape_),
         depths_(whole.depths_),
         threads_(whole.threads_),
-        visible_sets_(whole.visible_sets_) {}
+        visible_sets_(whole.visible_sets_) {
+    is_own_path_ = false;
+  }
 
   view::Frame frame_of_path(int index) const;
   // The inputs with tiles as requested, before any reaction to the previous frame.
@@ -89,10 +92,8 @@ class PathFrames {
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
   Vec2i viewport_;
-  LightReach reach_;
-  // Of all frames; null if they differ in their lights.
-  std::shared_ptr<const std::vector<scene::WorldLight>> lights_;
-  view::Projection shape_;  // of the first frame: all frames have the same number of cells in a shape
+  std::shared_ptr<const PathLights> lights_;  // of this path, or of that from which along() has made it
+  bool is_own_path_ = true;
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
   int threads_ = 1;
@@ -104,21 +105,7 @@ class PathFrames {
 
 // The frames in which a group of cases is measured.
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group);
-
-// The same, made once for groups that follow one another in a view; on any thread.
-class PathOfGroups {
- public:
-  // Both must outlive this object.
-  PathOfGroups(const config::Config& config, const Plan& plan) : config_(config), plan_(plan) {}
-  PathFrames of(const GroupPlan& group);
-
- private:
-  const config::Config& config_;
-  const Plan& plan_;
-  std::mutex mutex_;
-  std::optional<PathFrames> last_;
-  std::array<std::size_t, 3> view_of_last_{};  // scene, camera, viewport
-};
+PathFrames path_of(const config::Config& config, const SceneData& data, std::size_t camera, std::size_t viewport);
 
 // Whether one of a group's methods needs depth.
 bool needs_depth(const config::Config& config, const GroupPlan& group);

@@ -56,9 +56,8 @@ void check_paths(const SceneData& data, int threads) {
 // cell.
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
   if (request.camera.most_lights == 0.0 && !config.accuracy.most_pairs) return;
-  for (const scene::CameraPath& path : data.paths)
-    data.lights_at_points.push_back(
-        lights_at_a_point(data.scene, path, config.viewports.front(), config.seed, config.threads));
+  for (std::size_t camera = 0; camera < data.paths.size(); ++camera)
+    data.lights_at_points.push_back(lights_at_a_point(path_of(config, data, camera, 0), config.seed));
   if (request.camera.most_lights == 0.0) return;
   scene::PathRequest fewer = request.camera;
   fewer.count = frames_within(fewer.count, fewer.most_lights, data.paths, data.lights_at_points);
@@ -66,6 +65,7 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
   data.requested_frames = request.camera.count;
   data.equal_steps = fewer.count;
   data.paths = scene::camera_paths(data.scene, fewer);
+  data.path_lights = std::make_shared<PathLightsOfScene>();
   check_paths(data, config.threads);
 }
 

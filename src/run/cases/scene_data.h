@@ -9,6 +9,7 @@
 
 #include "config/config.h"
 #include "run/cases/frame_depths.h"
+#include "run/cases/path_lights.h"
 #include "run/cases/scene_visible_sets.h"
 #include "scene/camera_path.h"
 #include "scene/geometry.h"
@@ -27,6 +28,7 @@ struct SceneData {
   // scene: a plan is moved, never copied.
   std::shared_ptr<FrameDepths> depths = {};
   std::shared_ptr<SceneVisibleSets> visible_sets = {};  // like depths
+  std::shared_ptr<PathLightsOfScene> path_lights = std::make_shared<PathLightsOfScene>();
   // The lowest height of the lights, and of points 1.7 m below the eyes, over the paths' frames; set if a floor is
   // requested.
   std::optional<double> lowest_m = {};

@@ -154,7 +154,7 @@ class FrameFacts {
 
   void add(const PreparedFrame& now) {
     const grid::Grid& grid = *now.grid;
-    const std::vector<bool> in_view = grid::lights_in_view(now.frame);
+    const std::vector<bool> in_view = path_.lights_in_view(now.frame);
     measure::add_frame(result_.lights_in_view, now.frame, in_view);
     measure::add_frame(result_.lights_beyond_grid, now.frame, grid, in_view);
     if (moves_) moves_->add(grid.screen(), path_.spans(spec_)[static_cast<std::size_t>(now.at)]);
