@@ -23,7 +23,7 @@ COMPILED = ["core/text.cpp", "core/own_threads.cpp", "scene/boxes.cpp", "view/fr
 
 
 def compiled_code(text):
-    """What the compiler sees of headers that have GLM or Boost otherwise."""
+    """What the compiler sees of headers that have GLM otherwise."""
     return re.sub(r"#else\n.*?#endif", "", text, flags=re.DOTALL) if "#if CLUSTERBENCH_OWN_" in text else text
 
 

@@ -63,8 +63,15 @@ class BinaryFloat {
     double size = kind_ == Kind::zero ? 0.0 : std::numeric_limits<double>::infinity();
     if (kind_ == Kind::number && exponent_ <= 2000) {
       const bool has_more = std::any_of(digits_.begin(), digits_.end() - 1, [](Limb limb) { return limb != 0; });
-      const Limb top = digits_[k_limbs - 1] | (has_more ? 1 : 0);  // 11 bits more than a double has
-      size = exponent_ < -2000 ? 0.0 : std::ldexp(static_cast<double>(top), static_cast<int>(exponent_) - 64);
+      const Limb top = digits_[k_limbs - 1] | (has_more ? 1 : 0);
+      // Rounded once, to the bits that a double of this size has: 53, or fewer below 2^-1022.
+      const std::int64_t kept = std::min<std::int64_t>(53, exponent_ + 1074);
+      if (kept < 0) return is_negative_ ? -0.0 : 0.0;
+      const auto dropped = static_cast<unsigned>(k_limb_bits - kept);
+      const Limb half = Limb{1} << (dropped - 1), rest = top & (half | (half - 1));
+      Limb digits = dropped == k_limb_bits ? 0 : top >> dropped;
+      if (rest > half || (rest == half && digits % 2 == 1)) ++digits;
+      size = std::ldexp(static_cast<double>(digits), static_cast<int>(exponent_ - kept));
     }
     return is_negative_ ? -size : size;
   }

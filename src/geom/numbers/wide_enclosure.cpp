@@ -1,5 +1,6 @@
 #include "geom/numbers/wide_enclosure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

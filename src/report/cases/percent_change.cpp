@@ -16,13 +16,13 @@ namespace {
 
 using geom::Rational;
 
-// The shortest decimal that reads as this double, up to 15 digits: the number as written. 2.9 is 29/10.
+// The shortest decimal that reads as this double, at most 17 digits: the number as written. 2.9 is 29/10.
 Rational decimal(double value) {
   char text[64];
   const auto [end, failed] = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific);
   const std::string_view all(text, static_cast<std::size_t>(end - text));
   const std::size_t e = all.find('e');
-  std::int64_t number = 0;  // of at most 17 digits
+  std::int64_t number = 0;
   int exponent = 0;
   std::string_view exponent_text = all.substr(e + 1);
   if (exponent_text.starts_with('+')) exponent_text.remove_prefix(1);
