@@ -361,6 +361,36 @@ TEST_F(JournalTest, a_resumed_run_can_die_and_be_resumed) {
   EXPECT_EQ(later.earlier_ids(), (std::vector<std::string>{"first", "second"}));
 }
 
+TEST_F(JournalTest, the_setting_and_the_scene_that_changed_are_named) {
+  const auto header = [](const Json& rounds, const char* sha256) {
+    const Json street{{"path", "street.glb"}}, hall{{"path", "hall.glb"}};
+    return Json{{"scenes", {"1", sha256}},
+                {"config", {{"scenes", {street, hall}}, {"timing", {{"rounds", rounds}, {"measure", true}}}}}};
+  };
+  { Journal(file_, header(5, "2"), false, 100).add_case(case_named("first")); }
+  const auto refusal_of = [&](const Json& now) {
+    try {
+      finished_ids(file_, now);
+    } catch (const Error& error) {
+      const std::string told = error.message();
+      return told.substr(0, told.find("; without --resume"));
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal_of(header(5, "2")), "");
+  EXPECT_EQ(refusal_of(header(7, "2")), "is an interrupted run of another configuration (/timing/rounds was 5, is 7)");
+  EXPECT_EQ(refusal_of(header(5, "3")), "is an interrupted run of another scene (hall.glb)");
+  EXPECT_EQ(refusal_of(header(Json(std::string(100, 'x')), "3")),
+            "is an interrupted run of another configuration (/timing/rounds was 5, is a text of 102 bytes) and scene "
+            "(hall.glb)");
+  Json longer = header(5, "2");
+  longer["config"]["scenes"].push_back({{"path", "new.glb"}});
+  longer["scenes"].push_back("3");
+  EXPECT_EQ(refusal_of(longer),
+            "is an interrupted run of another configuration (/scenes/2 was absent, is {\"path\":\"new.glb\"}) and "
+            "scene (new.glb)");
+}
+
 TEST_F(JournalTest, another_configuration_is_not_continued) {
   leave_one_case();
   EXPECT_THROW(Journal(file_, Json{{"config", "b"}}, true, 100), Error);

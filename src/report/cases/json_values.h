@@ -17,6 +17,13 @@ const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const
 // they differ. Null where there is none.
 nlohmann::ordered_json setting_of_parts(const nlohmann::ordered_json& config, const std::string& pointer);
 
+// The first place where two documents differ (/timing/rounds), and what is there, for a message: "absent", the value,
+// or its kind if it is long. Empty if they are equal.
+struct FirstDifference {
+  std::string pointer, of_one, of_other;
+};
+FirstDifference first_difference(const nlohmann::ordered_json& one, const nlohmann::ordered_json& other);
+
 // None if it is not a number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);
 

@@ -96,6 +96,22 @@ std::string other_device(const Json& earlier, const Json& now) {
          "; --device NAME takes the same one, where it is there";
 }
 
+// The first setting that differs between two configurations, or the first scene whose contents do; "" if none is known.
+std::string first_change(const Json& earlier, const Json& now, const std::string& key) {
+  if (key == "config") {
+    const FirstDifference found = first_difference(earlier.value(key, Json()), now.value(key, Json()));
+    return found.pointer.empty() ? "" : found.pointer + " was " + found.of_one + ", is " + found.of_other;
+  }
+  const Json scenes = now.value(key, Json::array());
+  for (std::size_t i = 0; key == "scenes" && i < scenes.size(); ++i) {
+    const std::string at = "/" + std::to_string(i);
+    const Json *before = value_at(earlier, "/scenes" + at), *path = value_at(now, "/config/scenes" + at + "/path");
+    if (path != nullptr && path->is_string() && (before == nullptr || *before != scenes[i]))
+      return printable(path->get<std::string>());
+  }
+  return "";
+}
+
 // What differs between two runs, for the user.
 std::vector<std::string> differences(const Json& earlier, const Json& now) {
   const std::pair<const char*, const char*> parts[] = {
@@ -104,8 +120,10 @@ std::vector<std::string> differences(const Json& earlier, const Json& now) {
       {"plugins", "plug-in"}, {"methods", "shader"}, {"machine", "machine"}, {"device", "device"}};
   std::vector<std::string> out;
   for (const auto& [key, name] : parts)
-    if (earlier.value(key, Json()) != now.value(key, Json()) && (out.empty() || out.back() != name))
-      out.emplace_back(name);
+    if (earlier.value(key, Json()) != now.value(key, Json()) && (out.empty() || out.back() != name)) {
+      const std::string change = first_change(earlier, now, key);
+      out.emplace_back(name + (change.empty() ? "" : " (" + change + ")"));
+    }
   if (out.empty()) out.emplace_back("build");  // that writes other facts
   return out;
 }

@@ -24,22 +24,6 @@ Json without_places(Json config) {
   return config;
 }
 
-// "/timing/rounds" where two documents differ first; "" if they are equal.
-std::string first_difference(const Json& one, const Json& other) {
-  const Json changes = Json::diff(one, other);
-  if (changes.empty()) return "";
-  std::string path = changes.front()["path"].get<std::string>();
-  if (!path.ends_with("/-")) return path;
-  const std::string list = path.substr(0, path.size() - 2);  // the other one is longer
-  const Json* shorter = value_at(one, list);
-  return shorter == nullptr ? list : list + "/" + std::to_string(shorter->size());
-}
-
-std::string value_text(const Json& from, const std::string& pointer) {
-  const Json* value = value_at(from, pointer);
-  return value == nullptr ? "absent" : value->dump();
-}
-
 [[noreturn]] void refuse(const NamedPart& part, const std::string& where, const std::string& message) {
   throw Error(part.file, where, message);
 }
@@ -47,10 +31,10 @@ std::string value_text(const Json& from, const std::string& pointer) {
 // Refuses documents of two shards that differ, at the first place where they do.
 void check_same(const NamedPart& first, const NamedPart& next, const std::string& at, const Json& of_first,
                 const Json& of_next) {
-  const std::string pointer = first_difference(of_first, of_next);
   if (of_first == of_next) return;
-  refuse(next, at + pointer,
-         "is " + value_text(of_next, pointer) + ", and " + value_text(of_first, pointer) + " in " + first.file +
+  const FirstDifference found = first_difference(of_first, of_next);
+  refuse(next, at + found.pointer,
+         "is " + found.of_other + ", and " + found.of_one + " in " + first.file +
              ": shards of different runs have no place in one result");
 }
 
