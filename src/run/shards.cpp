@@ -6,6 +6,7 @@
 #include <map>
 
 #include "run/cases/frame_work.h"
+#include "run/cases/path_frames.h"
 #include "run/runner.h"
 
 namespace clusterbench::run {

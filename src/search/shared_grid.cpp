@@ -37,9 +37,8 @@ measure::ShadingCounts samples_in_grid_of(const config::Config& config, const ru
                                           const std::atomic<bool>& stop) {
   const run::SceneData& data = plan.scenes[case_plan.scene];
   check_cameras(config, case_plan, data.paths[case_plan.camera], data.paths[guest]);
-  const Vec2i viewport = config.viewports[case_plan.viewport];
-  const run::PathFrames owners(data.scene, data.paths[case_plan.camera], viewport),
-      guests(data.scene, data.paths[guest], viewport);
+  const run::PathFrames owners = run::path_of(config, data, case_plan.camera, case_plan.viewport),
+                        guests = run::path_of(config, data, guest, case_plan.viewport);
   FrameMeter meter(config, case_plan, Measure::entries);
   measure::ShadingCounts counts;
   for (int i = 0; i < owners.count() && !stop; ++i) {

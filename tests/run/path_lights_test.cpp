@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "grid/lights_in_view.h"
 #include "run/cases/path_frames.h"
 #include "run/walk.h"
@@ -16,13 +17,13 @@ TEST(PathLights, in_view_are_those_of_each_frame_also_where_they_are_not_kept) {
   for (int i = 0; i < 40; ++i) walk.add_light({0.5 * (i % 5), 0.0, -1.0 * i}, 1.0);
   const SceneData& data = walk.plan.scenes[0];
   const Vec2i viewport{100, 100};
+  const SharedLights lasting = lasting_lights(data.scene, 0.0);
   for (const int threads : {1, 2, 3})
     for (const std::size_t most_bytes : {std::size_t{0}, std::size_t{1000}, PathLights::k_most_bytes}) {
-      const auto lights =
-          std::make_shared<const PathLights>(path_lights(data.scene, data.paths[0], viewport, threads, most_bytes));
+      const auto lights = std::make_shared<const PathLights>(
+          path_lights(data.scene, data.paths[0], viewport, lasting, threads, most_bytes));
       EXPECT_EQ(lights->in_view.size(), most_bytes == PathLights::k_most_bytes ? 30u : 0u);
-      EXPECT_LE(lights->in_view.empty() ? 0 : lights->bytes() - lights->lights->size() * sizeof(scene::WorldLight),
-                most_bytes);
+      EXPECT_LE(lights->bytes_in_view(), most_bytes);
       const PathFrames path(data.scene, data.paths[0], viewport, lights, nullptr, threads, nullptr);
       for (const int i : {0, 7, 29}) {
         const std::vector<bool> in_view = path.lights_in_view(path.frame(i));
@@ -45,24 +46,39 @@ TEST(PathLights, of_a_path_along_another_are_its_own) {
   EXPECT_NE(along.lights_in_view(along.frame(2)), path.lights_in_view(path.frame(2)));
 }
 
-TEST(PathLights, are_found_again_after_more_than_fit) {
-  testing::Walk walk(testing::k_shafts, 400);
-  for (int i = 0; i < 100'000; ++i) walk.add_light({0.0, 0.0, -1.0 * (i % 400)}, 1.0);
-  walk.config.viewports = {{100, 100}, {64, 64}, {32, 32}};
-  SceneData& data = walk.plan.scenes[0];
-  data.paths[0].shots.resize(60);
-  const auto of = [&](std::size_t viewport) {
-    return data.path_lights->of(data.scene, data.paths[0], 0, walk.config.viewports[viewport], 2);
-  };
-  const auto first = of(0);
-  EXPECT_GT(2 * first->bytes(), PathLights::k_most_bytes);
+TEST(PathLights, are_kept_while_they_fit_and_then_found_again) {
+  testing::Walk walk(testing::k_shafts, 50);
+  for (int i = 0; i < 200; ++i) walk.add_light({0.0, 0.0, -1.0 * (i % 50)}, 1.0);
+  const SceneData& data = walk.plan.scenes[0];
+  const Vec2i viewports[] = {{100, 100}, {64, 64}, {32, 32}};
+  const auto one = PathLightsOfScene().of(data.scene, data.paths[0], 0, viewports[0], 2);
+  PathLightsOfScene two(2 * one->bytes_in_view());
+  const auto of = [&](int viewport) { return two.of(data.scene, data.paths[0], 0, viewports[viewport], 2); };
+  const auto first = of(0), second = of(1);
   EXPECT_EQ(of(0), first);
-  const auto second = of(1);
-  EXPECT_EQ(data.path_lights->times_found(), 2);
   EXPECT_EQ(of(1), second);
-  EXPECT_EQ(data.path_lights->times_found(), 2);
-  EXPECT_EQ(of(0)->reach.far_m(), first->reach.far_m());
-  EXPECT_EQ(data.path_lights->times_found(), 3);
+  EXPECT_EQ(first->lasting, second->lasting);
+  EXPECT_EQ(two.times_found(), 2);
+  of(2);
+  EXPECT_EQ(of(1), second);
+  EXPECT_EQ(two.times_found(), 3);
+  EXPECT_EQ(of(0)->in_view, first->in_view);
+  EXPECT_EQ(two.times_found(), 4);
+}
+
+TEST(PathLights, of_several_views_are_found_at_the_same_time_and_once_each) {
+  testing::Walk walk(testing::k_shafts, 300);
+  for (int i = 0; i < 300; ++i) walk.add_light({0.0, 0.0, -1.0 * i}, 1.0);
+  const SceneData& data = walk.plan.scenes[0];
+  PathLightsOfScene all;
+  ThreadPool pool(4);
+  std::vector<std::shared_ptr<const PathLights>> found(16);
+  pool.each(found.size(), [&](std::size_t i) {
+    const int side = 32 + static_cast<int>(i % 4);
+    found[i] = all.of(data.scene, data.paths[0], 0, {side, side}, 2);
+  });
+  EXPECT_EQ(all.times_found(), 4);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], found[i % 4]) << i;
 }
 
 }  // namespace

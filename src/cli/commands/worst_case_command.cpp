@@ -85,7 +85,7 @@ void check_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
   const config::Config config = config::load_config(facts.config_file);
   const run::Plan plan = run::make_plan(config, "");
   const run::CasePlan& replayed = search::replayed_case(plan, facts.case_plan);
-  const run::PathFrames path(plan.scenes[0].scene, plan.scenes[0].paths[0], config.viewports[0]);
+  const run::PathFrames path = run::path_of(config, plan.scenes[0], 0, 0);
   const std::vector<double> values = search::values_along(config, replayed, facts.request.measure, path);
   bool is_same = values.size() == found.frames.size();
   for (std::size_t i = 0; is_same && i < values.size(); ++i) is_same = values[i] == found.frames[i].value;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "run/cases/path_frames.h"
+#include "scene/camera_path.h"
 
 namespace clusterbench::run {
 

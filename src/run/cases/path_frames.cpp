@@ -11,8 +11,8 @@ namespace clusterbench::run {
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
                        int threads, SceneVisibleSets* visible_sets)
-    : PathFrames(scene, path, viewport, std::make_shared<const PathLights>(path_lights(scene, path, viewport, threads)),
-                 depths, threads, visible_sets) {}
+    : PathFrames(scene, path, viewport, PathLightsOfScene(0).of(scene, path, 0, viewport, threads), depths, threads,
+                 visible_sets) {}
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
                        std::shared_ptr<const PathLights> lights, FrameDepths* depths, int threads,
@@ -46,7 +46,7 @@ std::vector<bool> PathFrames::lights_in_view(const view::Frame& frame) const {
 }
 
 view::Frame PathFrames::frame_of_path(int index) const {
-  return frame_of_shot(scene_, path_, index, viewport_, lights_->lights.get());
+  return frame_of_shot(scene_, path_, index, viewport_, lights_->lasting);
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {

@@ -14,47 +14,63 @@
 
 namespace clusterbench::run {
 
+using SharedLights = std::shared_ptr<const std::vector<scene::WorldLight>>;
+
+// A scene's lights at all times, of which `time_s` is one; null if they change. Throws Error for lights outside of the
+// domain.
+SharedLights lasting_lights(const scene::Scene& scene, double time_s);
+
 struct PathLights {
   LightReach reach;
   view::Projection shape;  // of the first frame: all frames have the same number of cells in a shape
-  // Of all frames; null if they differ in their lights.
-  std::shared_ptr<const std::vector<scene::WorldLight>> lights;
+  SharedLights lasting;    // lasting_lights() of the scene
   // grid::lights_in_view() of each frame; none if they would take more than `most_bytes`.
   std::vector<std::vector<bool>> in_view;
 
-  std::size_t bytes() const;
+  std::size_t bytes_in_view() const;
 
-  static constexpr std::size_t k_most_bytes = std::size_t{16} << 20;
+  static constexpr std::size_t k_most_bytes = std::size_t{4} << 20;
 };
 
-// The frame of a path's shot. `lights`: of all frames; null if they differ in their lights.
+// The frame of a path's shot. `lasting`: as in PathLights.
 view::Frame frame_of_shot(const scene::Scene& scene, const scene::CameraPath& path, int shot, Vec2i viewport,
-                          const std::vector<scene::WorldLight>* lights);
+                          const SharedLights& lasting);
 
 // Results do not depend on `threads`.
-PathLights path_lights(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, int threads,
-                       std::size_t most_bytes = PathLights::k_most_bytes);
+PathLights path_lights(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
+                       const SharedLights& lasting, int threads, std::size_t most_bytes = PathLights::k_most_bytes);
 
-// Those of a scene's paths. Several threads may ask: they wait for one another. The last ones are kept while they fit
-// into k_most_bytes; the last one always is.
+// Those of a scene's paths, which never change once they were asked for. Several threads may ask: who asks for the same
+// view waits. The last ones are kept as long as their lights in view take at most `most_bytes`; the last one always is.
 class PathLightsOfScene {
  public:
-  // `camera`: index of the path, which never changes.
+  explicit PathLightsOfScene(std::size_t most_bytes = 2 * PathLights::k_most_bytes) : most_bytes_(most_bytes) {}
+
+  // `camera`: index of the path.
   std::shared_ptr<const PathLights> of(const scene::Scene& scene, const scene::CameraPath& path, std::size_t camera,
                                        Vec2i viewport, int threads);
 
   int times_found() const { return times_found_; }
 
  private:
-  struct Kept {
+  struct View {
     std::size_t camera;
     Vec2i viewport;
-    std::shared_ptr<const PathLights> lights;
+    std::mutex finding;
+    std::shared_ptr<const PathLights> found;
   };
 
-  std::mutex finding_;
-  std::deque<Kept> kept_;  // the oldest first
+  // A new one if it is not kept.
+  std::shared_ptr<View> view_of(std::size_t camera, Vec2i viewport);
+  SharedLights lasting_of(const scene::Scene& scene, const scene::CameraPath& path);
+  void drop_oldest();
+
+  std::size_t most_bytes_;
+  std::mutex changing_;                     // all below
+  std::deque<std::shared_ptr<View>> kept_;  // the oldest first
   int times_found_ = 0;
+  bool knows_lasting_ = false;
+  SharedLights lasting_;
 };
 
 }  // namespace clusterbench::run

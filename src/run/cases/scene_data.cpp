@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "run/cases/case_names.h"
 #include "run/cases/frame_work.h"
+#include "run/cases/path_frames.h"
 #include "scene/domain_check.h"
 
 namespace clusterbench::run {

@@ -28,6 +28,7 @@ struct SceneData {
   // scene: a plan is moved, never copied.
   std::shared_ptr<FrameDepths> depths = {};
   std::shared_ptr<SceneVisibleSets> visible_sets = {};  // like depths
+  // Of this scene's lights and paths, which do not change any more once something has asked for it.
   std::shared_ptr<PathLightsOfScene> path_lights = std::make_shared<PathLightsOfScene>();
   // The lowest height of the lights, and of points 1.7 m below the eyes, over the paths' frames; set if a floor is
   // requested.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "grid/lights_in_view.h"
 #include "run/cases/frame_samples.h"
 #include "run/cases/impossible_cases.h"
 #include "run/cases/path_culls.h"
