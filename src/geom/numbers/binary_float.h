@@ -102,7 +102,7 @@ class BinaryFloat {
     if (a.sign() != b.sign()) return a.sign() <=> b.sign();
     return a.sign() < 0 ? 0 <=> compared(a, b) : compared(a, b) <=> 0;
   }
-  friend bool operator==(const BinaryFloat& a, const BinaryFloat& b) { return (a <=> b) == 0; }
+  friend bool operator==(const BinaryFloat& a, const BinaryFloat& b) { return std::is_eq(a <=> b); }
 
   friend BinaryFloat abs(const BinaryFloat& a) { return a.is_negative_ ? -a : a; }
   friend BinaryFloat ldexp(BinaryFloat a, std::int64_t exponent) {

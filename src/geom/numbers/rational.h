@@ -72,7 +72,7 @@ class Rational {
     if (a.denominator_ == b.denominator_) return a.numerator_ <=> b.numerator_;
     return a.numerator_ * b.denominator_ <=> b.numerator_ * a.denominator_;
   }
-  friend bool operator==(const Rational& a, const Rational& b) { return (a <=> b) == 0; }
+  friend bool operator==(const Rational& a, const Rational& b) { return std::is_eq(a <=> b); }
   friend Rational abs(const Rational& a) { return a.sign() < 0 ? -a : a; }
 
  private:
