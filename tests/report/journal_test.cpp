@@ -383,6 +383,10 @@ TEST_F(JournalTest, the_setting_and_the_scene_that_changed_are_named) {
   EXPECT_EQ(refusal_of(header(Json(std::string(100, 'x')), "3")),
             "is an interrupted run of another configuration (/timing/rounds was 5, is a text of 102 bytes) and scene "
             "(hall.glb)");
+  Json several = header(5, "3");  // two scenes of one entry
+  several["config"]["scenes"] = {{{"paths", {"street.glb", "hall.glb"}}}, {{"path", "new.glb"}}};
+  several["scenes"].push_back("4");
+  EXPECT_TRUE(refusal_of(several).ends_with(") and scene"));
   Json longer = header(5, "2");
   longer["config"]["scenes"].push_back({{"path", "new.glb"}});
   longer["scenes"].push_back("3");

@@ -17,11 +17,11 @@ TEST(PathLights, in_view_are_those_of_each_frame_also_where_they_are_not_kept) {
   for (int i = 0; i < 40; ++i) walk.add_light({0.5 * (i % 5), 0.0, -1.0 * i}, 1.0);
   const SceneData& data = walk.plan.scenes[0];
   const Vec2i viewport{100, 100};
-  const SharedLights lasting = lasting_lights(data.scene, 0.0);
+  const SharedLights static_lights = find_static_lights(data.scene, 0.0);
   for (const int threads : {1, 2, 3})
     for (const std::size_t most_bytes : {std::size_t{0}, std::size_t{1000}, PathLights::k_most_bytes}) {
       const auto lights = std::make_shared<const PathLights>(
-          path_lights(data.scene, data.paths[0], viewport, lasting, threads, most_bytes));
+          path_lights(data.scene, data.paths[0], viewport, static_lights, threads, most_bytes));
       EXPECT_EQ(lights->in_view.size(), most_bytes == PathLights::k_most_bytes ? 30u : 0u);
       EXPECT_LE(lights->bytes_in_view(), most_bytes);
       const PathFrames path(data.scene, data.paths[0], viewport, lights, nullptr, threads, nullptr);
@@ -57,7 +57,7 @@ TEST(PathLights, are_kept_while_they_fit_and_then_found_again) {
   const auto first = of(0), second = of(1);
   EXPECT_EQ(of(0), first);
   EXPECT_EQ(of(1), second);
-  EXPECT_EQ(first->lasting, second->lasting);
+  EXPECT_EQ(first->static_lights, second->static_lights);
   EXPECT_EQ(two.times_found(), 2);
   of(2);
   EXPECT_EQ(of(1), second);

@@ -103,7 +103,9 @@ std::string first_change(const Json& earlier, const Json& now, const std::string
     return found.pointer.empty() ? "" : found.pointer + " was " + found.of_one + ", is " + found.of_other;
   }
   const Json scenes = now.value(key, Json::array());
-  for (std::size_t i = 0; key == "scenes" && i < scenes.size(); ++i) {
+  const Json* entries = value_at(now, "/config/scenes");
+  const bool has_entry_each = entries != nullptr && entries->size() == scenes.size();  // not with `paths` of several
+  for (std::size_t i = 0; key == "scenes" && has_entry_each && i < scenes.size(); ++i) {
     const std::string at = "/" + std::to_string(i);
     const Json *before = value_at(earlier, "/scenes" + at), *path = value_at(now, "/config/scenes" + at + "/path");
     if (path != nullptr && path->is_string() && (before == nullptr || *before != scenes[i]))

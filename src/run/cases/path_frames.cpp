@@ -46,7 +46,7 @@ std::vector<bool> PathFrames::lights_in_view(const view::Frame& frame) const {
 }
 
 view::Frame PathFrames::frame_of_path(int index) const {
-  return frame_of_shot(scene_, path_, index, viewport_, lights_->lasting);
+  return frame_of_shot(scene_, path_, index, viewport_, lights_->static_lights);
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {

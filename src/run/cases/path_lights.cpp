@@ -18,7 +18,7 @@ std::size_t bytes_of(std::size_t lights) {
 
 }  // namespace
 
-SharedLights lasting_lights(const scene::Scene& scene, double time_s) {
+SharedLights find_static_lights(const scene::Scene& scene, double time_s) {
   if (scene::lights_change(scene)) return nullptr;
   std::vector<scene::WorldLight> lights = scene::world_lights(scene, time_s);
   scene::check_domain(scene, lights, time_s);
@@ -30,18 +30,19 @@ std::size_t PathLights::bytes_in_view() const {
 }
 
 view::Frame frame_of_shot(const scene::Scene& scene, const scene::CameraPath& path, int shot, Vec2i viewport,
-                          const SharedLights& lasting) {
+                          const SharedLights& static_lights) {
   const scene::Shot& at = path.shots[static_cast<std::size_t>(shot)];
-  return lasting ? view::make_frame(scene, at, shot, viewport, *lasting) : view::make_frame(scene, at, shot, viewport);
+  return static_lights ? view::make_frame(scene, at, shot, viewport, *static_lights)
+                       : view::make_frame(scene, at, shot, viewport);
 }
 
 PathLights path_lights(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
-                       const SharedLights& lasting, int threads, std::size_t most_bytes) {
+                       const SharedLights& static_lights, int threads, std::size_t most_bytes) {
   PathLights out;
-  out.lasting = lasting;
+  out.static_lights = static_lights;
   const std::size_t frames = path.shots.size();
   if (frames == 0) return out;
-  const view::Frame first = frame_of_shot(scene, path, 0, viewport, lasting);
+  const view::Frame first = frame_of_shot(scene, path, 0, viewport, static_lights);
   out.shape = first.projection;
   if (frames <= most_bytes / bytes_of(first.lights.size())) out.in_view.resize(frames);
   std::mutex adding;
@@ -49,7 +50,7 @@ PathLights path_lights(const scene::Scene& scene, const scene::CameraPath& path,
   ranges_in_order(threads, static_cast<int>(frames), k_frames_at_once, [&](int begin, int end) {
     LightReach reach;
     for (int i = begin; i < end; ++i) {
-      const view::Frame frame = frame_of_shot(scene, path, i, viewport, lasting);
+      const view::Frame frame = frame_of_shot(scene, path, i, viewport, static_lights);
       std::vector<bool> in_view = grid::lights_in_view(frame);
       reach.add(frame, in_view);
       if (!out.in_view.empty()) out.in_view[static_cast<std::size_t>(i)] = std::move(in_view);
@@ -65,7 +66,8 @@ std::shared_ptr<const PathLights> PathLightsOfScene::of(const scene::Scene& scen
   const std::shared_ptr<View> view = view_of(camera, viewport);
   const std::lock_guard one_at_a_time(view->finding);
   if (view->found) return view->found;
-  auto found = std::make_shared<const PathLights>(path_lights(scene, path, viewport, lasting_of(scene, path), threads));
+  auto found =
+      std::make_shared<const PathLights>(path_lights(scene, path, viewport, static_lights_of(scene, path), threads));
   const std::lock_guard lock(changing_);
   ++times_found_;
   view->found = found;
@@ -84,13 +86,13 @@ std::shared_ptr<PathLightsOfScene::View> PathLightsOfScene::view_of(std::size_t 
   return kept_.back();
 }
 
-SharedLights PathLightsOfScene::lasting_of(const scene::Scene& scene, const scene::CameraPath& path) {
+SharedLights PathLightsOfScene::static_lights_of(const scene::Scene& scene, const scene::CameraPath& path) {
   const std::lock_guard lock(changing_);
-  if (!knows_lasting_ && !path.shots.empty()) {
-    lasting_ = lasting_lights(scene, path.shots.front().time_s);
-    knows_lasting_ = true;
+  if (!knows_static_lights_ && !path.shots.empty()) {
+    static_lights_ = find_static_lights(scene, path.shots.front().time_s);
+    knows_static_lights_ = true;
   }
-  return lasting_;
+  return static_lights_;
 }
 
 void PathLightsOfScene::drop_oldest() {
